@@ -1,0 +1,1 @@
+//! Worker threads and the job graph of the sea.

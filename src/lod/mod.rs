@@ -1,0 +1,3 @@
+//! Level of detail: which patches of sea are drawn, and how densely.
+pub mod settings;
+pub use settings::{LodSettings, Preset, Quality};
