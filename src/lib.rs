@@ -17,6 +17,8 @@
 //! `sea`, `lod` and `scene` know nothing of Vulkan or windows.
 #![warn(missing_docs)]
 
+pub mod draw;
+pub mod gpu;
 pub mod jobs;
 pub mod lod;
 pub mod scene;

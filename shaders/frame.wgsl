@@ -1,0 +1,74 @@
+// What every shader sees. Its Rust twin is src/draw/uniforms.rs; the build checks that the sizes agree.
+// Positions are metres relative to the frame's origin, the snapped point near the eye that the CPU subtracts in f64.
+
+override CASCADES: u32 = 4u;
+
+struct Cascade {
+    // Texture coordinates of the origin, half a texel included.
+    offset: vec2f,
+    // Cosine and sine of the cascade's rotation.
+    axes: vec2f,
+    // 1 / L.
+    per_metre: f32,
+    // log2 of metres a texel.
+    log_texel: f32,
+    unused: vec2f,
+}
+
+struct Frame {
+    // From positions relative to the origin to clip space, for each view.
+    view_projection: array<mat4x4f, 2>,
+    // From clip space (x, y, 0, 1) to a direction.
+    clip_to_ray: array<mat4x4f, 2>,
+    // The eyes, relative to the origin.
+    eyes: array<vec4f, 2>,
+    // The head: where level of detail is measured from, the same for both views.
+    head: vec4f,
+    cascades: array<Cascade, 4>,
+    // xyz towards the sun; w: cosine of its disc's radius.
+    sun: vec4f,
+    // rgb: illuminance at right angles to the sun.
+    sun_light: vec4f,
+    // rgb: illuminance of the sea plane by the sky alone.
+    sky_light: vec4f,
+    // rgb: diffuse reflectance of deep water; w: factor on the slopes.
+    deep: vec4f,
+    // rgb: colour of light through crests; w: its strength over the sea's RMS height.
+    scatter: vec4f,
+    // rgb: albedo of foam.
+    foam: vec4f,
+    // x: compression where foam begins; y: 1 / width; z: metres a repeat of the foam texture; w: unused.
+    foam_range: vec4f,
+    // x: cells a patch side; y: side of the quadtree; z, w: vertex spacing = clamp(z * distance, w, ...).
+    lod: vec4f,
+    // x: extinction of the air, 1/m; y: exposure; z: finest sky mip for alpha 1; w: coarsest spacing.
+    air: vec4f,
+}
+
+@group(0) @binding(0) var<uniform> frame: Frame;
+@group(0) @binding(1) var displacement_0: texture_2d<f32>;
+@group(0) @binding(2) var displacement_1: texture_2d<f32>;
+@group(0) @binding(3) var displacement_2: texture_2d<f32>;
+@group(0) @binding(4) var displacement_3: texture_2d<f32>;
+@group(0) @binding(5) var gradient_0: texture_2d<f32>;
+@group(0) @binding(6) var gradient_1: texture_2d<f32>;
+@group(0) @binding(7) var gradient_2: texture_2d<f32>;
+@group(0) @binding(8) var gradient_3: texture_2d<f32>;
+@group(0) @binding(9) var sky: texture_cube<f32>;
+@group(0) @binding(10) var foam_pattern: texture_2d<f32>;
+@group(0) @binding(11) var tiling: sampler;
+@group(0) @binding(12) var clamped: sampler;
+
+// From a direction or position along a cascade's axes (u, v) to the world's (x, z); docs/conventions.md.
+fn to_world(uv: vec2f, axes: vec2f) -> vec2f {
+    return vec2f(uv.x * axes.x + uv.y * axes.y, uv.y * axes.x - uv.x * axes.y);
+}
+
+fn to_cascade(xz: vec2f, axes: vec2f) -> vec2f {
+    return vec2f(xz.x * axes.x - xz.y * axes.y, xz.x * axes.y + xz.y * axes.x);
+}
+
+fn map_coordinates(xz: vec2f, cascade: u32) -> vec2f {
+    let c = frame.cascades[cascade];
+    return c.offset + to_cascade(xz, c.axes) * c.per_metre;
+}

@@ -1,0 +1,108 @@
+// How water looks: reflection of sky and sun, light from below and through crests, foam, haze.
+// The reasons and the sources are in docs/water.md.
+#include "light.wgsl"
+
+const PI: f32 = 3.14159265;
+// Reflectance of water seen along its normal.
+const F0: f32 = 0.02;
+
+struct Surface {
+    // Sum over cascades of dh/dx and dh/dz.
+    slope: vec2f,
+    // Sum of the squared roughnesses (GGX alpha) of what the maps' mips have averaged away.
+    alpha_squared: f32,
+    // Sum over cascades of 1 - J now.
+    compression: f32,
+}
+
+fn add_gradient(surface: ptr<function, Surface>, texel: vec4f, cascade: u32) {
+    let n = texel.xy * 2.0 - 1.0;
+    let up = sqrt(max(1.0 - dot(n, n), 0.04));
+    let slope = to_world(-n / up, frame.cascades[cascade].axes);
+    let root = 1.0 - texel.w;
+    let alpha = root * root;
+    (*surface).slope += slope;
+    (*surface).alpha_squared += alpha * alpha;
+    (*surface).compression += max(2.0 - 2.0 * texel.z, 0.0);
+}
+
+fn surface_at(rest: vec2f) -> Surface {
+    var s: Surface;
+    add_gradient(&s, textureSample(gradient_0, tiling, map_coordinates(rest, 0u)), 0u);
+    if CASCADES > 1u {
+        add_gradient(&s, textureSample(gradient_1, tiling, map_coordinates(rest, 1u)), 1u);
+    }
+    if CASCADES > 2u {
+        add_gradient(&s, textureSample(gradient_2, tiling, map_coordinates(rest, 2u)), 2u);
+    }
+    if CASCADES > 3u {
+        add_gradient(&s, textureSample(gradient_3, tiling, map_coordinates(rest, 3u)), 3u);
+    }
+    s.slope *= frame.deep.w;
+    return s;
+}
+
+fn fresnel(cosine: f32) -> f32 {
+    let m = 1.0 - saturate(cosine);
+    let m2 = m * m;
+    return F0 + (1.0 - F0) * m2 * m2 * m;
+}
+
+// The mean normal of the facets that can be seen: at grazing angles those that lean towards the viewer, so a rough sea
+// reflects sky from well above the horizon. For Gaussian slopes of variance s2 the mean seen slope is s2 tan(angle),
+// and at most sqrt(pi/2) s.
+fn visible_normal(n: vec3f, v: vec3f, s2: f32) -> vec3f {
+    let cosine = dot(n, v);
+    let across = v - n * cosine;
+    let lean = s2 / (max(cosine, 0.0) + 0.8 * sqrt(s2));
+    return normalize(n + across * lean + v * max(0.02 - cosine, 0.0));
+}
+
+// GGX distribution times Smith visibility.
+fn sun_lobe(n: vec3f, v: vec3f, l: vec3f, alpha_squared: f32) -> f32 {
+    let h = normalize(v + l);
+    let nh = saturate(dot(n, h));
+    let nl = saturate(dot(n, l));
+    let nv = max(dot(n, v), 0.02);
+    let d = nh * nh * (alpha_squared - 1.0) + 1.0;
+    let distribution = alpha_squared / (PI * d * d);
+    let smith = nl * sqrt(nv * nv * (1.0 - alpha_squared) + alpha_squared)
+        + nv * sqrt(nl * nl * (1.0 - alpha_squared) + alpha_squared);
+    return distribution * 0.5 / max(smith, 1.0e-4) * fresnel(dot(v, h)) * nl;
+}
+
+// How much of the surface is white: the compression's range, broken up by the pattern.
+fn foam_cover(rest: vec2f, compression: f32) -> f32 {
+    let amount = saturate((compression - frame.foam_range.x) * frame.foam_range.y);
+    let pattern = textureSample(foam_pattern, tiling, rest * frame.foam_range.z).r;
+    return smoothstep(1.0 - amount, 1.35 - amount, pattern) * saturate(amount * 4.0);
+}
+
+fn shade(in: Varyings) -> vec3f {
+    let to_eye = frame.eyes[in.view].xyz - in.position;
+    let distance = length(to_eye);
+    let v = to_eye / distance;
+    let surface = surface_at(in.rest);
+    let n = normalize(vec3f(-surface.slope.x, 1.0, -surface.slope.y));
+    let alpha_squared = clamp(surface.alpha_squared, 0.0004, 0.5);
+    let seen = visible_normal(n, v, 0.5 * alpha_squared);
+    let l = frame.sun.xyz;
+
+    let reflectance = fresnel(dot(seen, v));
+    let mip = max(frame.air.z + 0.5 * log2(alpha_squared), 0.0);
+    let reflected = sky_radiance(reflect(-v, seen), mip);
+    let glitter = frame.sun_light.rgb * sun_lobe(n, v, l, alpha_squared);
+
+    let daylight = frame.sun_light.rgb * saturate(dot(n, l)) + frame.sky_light.rgb;
+    let below = frame.deep.rgb * daylight / PI;
+    let towards_sun = saturate(-dot(l, v));
+    let crest = max(in.position.y, 0.0) * frame.scatter.w;
+    let facing = 0.5 - 0.5 * dot(l, n);
+    let through = frame.scatter.rgb * frame.sun_light.rgb
+        * (crest * towards_sun * towards_sun * facing * facing * facing);
+
+    let white = foam_cover(in.rest, max(in.compression, surface.compression));
+    let water = mix(below + through, reflected, reflectance) + glitter;
+    let color = mix(water, frame.foam.rgb * daylight / PI, white);
+    return tone_map(haze(color, v, distance));
+}

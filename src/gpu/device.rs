@@ -1,0 +1,164 @@
+//! The logical device, its one queue, its memory and its pipeline cache.
+
+use super::error::{Doing, GpuError};
+use super::instance::Instance;
+use super::physical::PhysicalDevice;
+use super::pipeline_cache::PipelineCache;
+use ash::{ext, vk};
+use gpu_allocator::vulkan::{
+    Allocation, AllocationCreateDesc, AllocationScheme, Allocator, AllocatorCreateDesc,
+};
+use gpu_allocator::{AllocationSizes, AllocatorDebugSettings, MemoryLocation};
+use std::ffi::CString;
+use std::mem::ManuallyDrop;
+use std::path::Path;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+
+/// A device shared by everything made on it: each resource keeps an `Arc`, so it outlives them all.
+pub struct Device {
+    /// Device-level commands.
+    pub raw: ash::Device,
+    /// The queue that draws and copies.
+    pub queue: vk::Queue,
+    /// Its family.
+    pub queue_family: u32,
+    /// What was chosen, with its limits.
+    pub physical: PhysicalDevice,
+    pub(super) cache: PipelineCache,
+    allocator: ManuallyDrop<Mutex<Allocator>>,
+    debug: Option<ext::debug_utils::Device>,
+    instance: Arc<Instance>,
+}
+
+impl Device {
+    /// Opens `physical`; compiled pipelines are kept in `cache_dir` between runs where one is given.
+    ///
+    /// # Errors
+    /// The device cannot be created, or is without memory.
+    pub fn new(
+        instance: Arc<Instance>,
+        physical: PhysicalDevice,
+        cache_dir: Option<&Path>,
+    ) -> Result<Arc<Self>, GpuError> {
+        let queue_family = physical
+            .queue_family
+            .ok_or_else(|| GpuError::NoDevice(format!("{:?} has no graphics queue", physical.name)))?;
+        let priorities = [1.0];
+        let queues = [vk::DeviceQueueCreateInfo::default()
+            .queue_family_index(queue_family)
+            .queue_priorities(&priorities)];
+        let features = vk::PhysicalDeviceFeatures::default()
+            .fill_mode_non_solid(physical.wireframe)
+            .sampler_anisotropy(physical.anisotropy);
+        let mut multiview = vk::PhysicalDeviceMultiviewFeatures::default().multiview(true);
+        let info = vk::DeviceCreateInfo::default()
+            .queue_create_infos(&queues)
+            .enabled_features(&features)
+            .push_next(&mut multiview);
+        // SAFETY: the handle belongs to this instance and `info` refers to locals that live past the call.
+        let raw =
+            unsafe { instance.raw.create_device(physical.raw, &info, None) }.doing("creating the device")?;
+        // SAFETY: the family was asked for with one queue.
+        let queue = unsafe { raw.get_device_queue(queue_family, 0) };
+        let allocator = Allocator::new(&AllocatorCreateDesc {
+            instance: instance.raw.clone(),
+            device: raw.clone(),
+            physical_device: physical.raw,
+            debug_settings: AllocatorDebugSettings::default(),
+            buffer_device_address: false,
+            allocation_sizes: AllocationSizes::default(),
+        })
+        .map_err(|source| GpuError::Memory { what: "the allocator".to_owned(), source })?;
+        let cache = PipelineCache::open(&raw, &physical, cache_dir)?;
+        let debug = instance.has_debug_utils().then(|| ext::debug_utils::Device::new(&instance.raw, &raw));
+        Ok(Arc::new(Self {
+            raw,
+            queue,
+            queue_family,
+            physical,
+            cache,
+            allocator: ManuallyDrop::new(Mutex::new(allocator)),
+            debug,
+            instance,
+        }))
+    }
+
+    /// The instance it came from.
+    pub fn instance(&self) -> &Instance {
+        &self.instance
+    }
+
+    /// Gives `object` a name that validation messages and captures show.
+    pub fn name<T: vk::Handle>(&self, object: T, name: &str) {
+        let (Some(debug), Ok(name)) = (&self.debug, CString::new(name)) else { return };
+        let info = vk::DebugUtilsObjectNameInfoEXT::default().object_handle(object).object_name(&name);
+        // SAFETY: the object is alive and ours. A failure leaves it unnamed, which harms nothing.
+        let _unnamed = unsafe { debug.set_debug_utils_object_name(&info) };
+    }
+
+    /// Opens a labelled span in a command buffer; close it with [`Self::end_label`].
+    pub fn begin_label(&self, commands: vk::CommandBuffer, name: &std::ffi::CStr) {
+        if let Some(debug) = &self.debug {
+            let label = vk::DebugUtilsLabelEXT::default().label_name(name);
+            // SAFETY: the command buffer is recording.
+            unsafe { debug.cmd_begin_debug_utils_label(commands, &label) };
+        }
+    }
+
+    /// Closes the span opened last.
+    pub fn end_label(&self, commands: vk::CommandBuffer) {
+        if let Some(debug) = &self.debug {
+            // SAFETY: the command buffer is recording and a label is open.
+            unsafe { debug.cmd_end_debug_utils_label(commands) };
+        }
+    }
+
+    /// Waits until the queue is empty. Only for shutting down and set-up, never inside a frame.
+    ///
+    /// # Errors
+    /// The device was lost.
+    pub fn wait_idle(&self) -> Result<(), GpuError> {
+        // SAFETY: one thread submits, so no other call uses the queue meanwhile.
+        unsafe { self.raw.device_wait_idle() }.doing("waiting for the device")
+    }
+
+    fn allocator(&self) -> MutexGuard<'_, Allocator> {
+        self.allocator.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    pub(super) fn allocate(
+        &self,
+        name: &str,
+        requirements: vk::MemoryRequirements,
+        location: MemoryLocation,
+        linear: bool,
+    ) -> Result<Allocation, GpuError> {
+        self.allocator()
+            .allocate(&AllocationCreateDesc {
+                name,
+                requirements,
+                location,
+                linear,
+                allocation_scheme: AllocationScheme::GpuAllocatorManaged,
+            })
+            .map_err(|source| GpuError::Memory { what: name.to_owned(), source })
+    }
+
+    pub(super) fn free(&self, allocation: Allocation) {
+        // Freeing fails only for an allocation of another allocator; there is one here.
+        let _foreign = self.allocator().free(allocation);
+    }
+}
+
+impl Drop for Device {
+    fn drop(&mut self) {
+        // SAFETY: every resource held an `Arc` of this device, so all are gone; the allocator goes before the device
+        // whose memory it frees, and is not used again.
+        unsafe {
+            let _lost = self.raw.device_wait_idle();
+            self.cache.close(&self.raw);
+            ManuallyDrop::drop(&mut self.allocator);
+            self.raw.destroy_device(None);
+        }
+    }
+}

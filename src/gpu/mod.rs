@@ -1,0 +1,31 @@
+//! The only place that touches Vulkan objects' lifetimes.
+//!
+//! Every object keeps an [`std::sync::Arc`] of its [`Device`], which keeps its [`Instance`]: whatever is dropped first,
+//! Vulkan sees the right order. Nothing here knows what is drawn.
+
+mod bindings;
+mod buffer;
+mod commands;
+mod device;
+mod error;
+mod image;
+mod instance;
+mod messages;
+mod physical;
+mod pipeline;
+mod pipeline_cache;
+mod ring;
+mod target;
+
+pub use bindings::{BindingKind, Bindings, Resource};
+pub use buffer::Buffer;
+pub use commands::{Commands, FRAMES_IN_FLIGHT, Transition, upload_buffer, upload_image};
+pub use device::Device;
+pub use error::{Doing, GpuError};
+pub use gpu_allocator::MemoryLocation;
+pub use image::{Image, ImageInfo, Sampler};
+pub use instance::{API_VERSION, Instance, Validation};
+pub use physical::{PhysicalDevice, version};
+pub use pipeline::{DepthUse, Pipeline, PipelineInfo, VertexInput};
+pub use ring::UploadRing;
+pub use target::{DEPTH_FORMAT, Target, TargetInfo};

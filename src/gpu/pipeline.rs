@@ -1,0 +1,160 @@
+//! Graphics pipelines.
+
+use super::device::Device;
+use super::error::{Doing, GpuError};
+use super::target::Target;
+use ash::{util, vk};
+use std::io::Cursor;
+use std::sync::Arc;
+
+/// How a pipeline treats depth.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum DepthUse {
+    /// Nearer things hide farther ones.
+    Solid,
+    /// As `Solid`, moved a little towards the viewer: lines on a surface.
+    Raised,
+    /// Drawn at infinity, where nothing else was; writes no depth.
+    Background,
+}
+
+/// Vertex buffers and what is in them.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct VertexInput<'a> {
+    /// Buffers.
+    pub bindings: &'a [vk::VertexInputBindingDescription],
+    /// Their fields.
+    pub attributes: &'a [vk::VertexInputAttributeDescription],
+}
+
+/// What a pipeline is made from.
+#[derive(Clone, Copy)]
+pub struct PipelineInfo<'a> {
+    /// Name for validation messages and captures.
+    pub name: &'a str,
+    /// SPIR-V of the vertex stage: entry point `vertex_main`.
+    pub vertex: &'a [u8],
+    /// SPIR-V of the fragment stage and its entry point.
+    pub fragment: (&'a [u8], &'a std::ffi::CStr),
+    /// Vertex buffers.
+    pub input: VertexInput<'a>,
+    /// Depth.
+    pub depth: DepthUse,
+    /// Draw the triangles' edges.
+    pub lines: bool,
+}
+
+/// A compiled pipeline.
+pub struct Pipeline {
+    raw: vk::Pipeline,
+    device: Arc<Device>,
+}
+
+impl Pipeline {
+    /// Compiles a pipeline for `target`'s pass.
+    ///
+    /// # Errors
+    /// The driver refuses, or lines are asked of a device that draws none.
+    pub fn new(
+        device: &Arc<Device>,
+        target: &Target,
+        layout: vk::PipelineLayout,
+        info: &PipelineInfo<'_>,
+    ) -> Result<Self, GpuError> {
+        if info.lines && !device.physical.wireframe {
+            let feature = "fillModeNonSolid, which --debug wireframe needs".to_owned();
+            return Err(GpuError::Missing { device: device.physical.name.clone(), feature });
+        }
+        let vertex = Module::new(device, info.vertex)?;
+        let fragment = Module::new(device, info.fragment.0)?;
+        let stage = |flag, module: &Module, entry| {
+            vk::PipelineShaderStageCreateInfo::default().stage(flag).module(module.raw).name(entry)
+        };
+        let stages = [
+            stage(vk::ShaderStageFlags::VERTEX, &vertex, c"vertex_main"),
+            stage(vk::ShaderStageFlags::FRAGMENT, &fragment, info.fragment.1),
+        ];
+        let input = vk::PipelineVertexInputStateCreateInfo::default()
+            .vertex_binding_descriptions(info.input.bindings)
+            .vertex_attribute_descriptions(info.input.attributes);
+        let assembly = vk::PipelineInputAssemblyStateCreateInfo::default()
+            .topology(vk::PrimitiveTopology::TRIANGLE_LIST);
+        let viewport = vk::PipelineViewportStateCreateInfo::default().viewport_count(1).scissor_count(1);
+        let polygon = if info.lines { vk::PolygonMode::LINE } else { vk::PolygonMode::FILL };
+        let raised = info.depth == DepthUse::Raised;
+        let raster = vk::PipelineRasterizationStateCreateInfo::default()
+            .polygon_mode(polygon)
+            .cull_mode(vk::CullModeFlags::NONE)
+            .line_width(1.0)
+            .depth_bias_enable(raised)
+            .depth_bias_constant_factor(8.0)
+            .depth_bias_slope_factor(1.0);
+        let samples =
+            vk::PipelineMultisampleStateCreateInfo::default().rasterization_samples(target.info.samples);
+        let depth = vk::PipelineDepthStencilStateCreateInfo::default()
+            .depth_test_enable(true)
+            .depth_write_enable(info.depth != DepthUse::Background)
+            .depth_compare_op(vk::CompareOp::GREATER_OR_EQUAL);
+        let blends =
+            [vk::PipelineColorBlendAttachmentState::default()
+                .color_write_mask(vk::ColorComponentFlags::RGBA)];
+        let blend = vk::PipelineColorBlendStateCreateInfo::default().attachments(&blends);
+        let dynamic = [vk::DynamicState::VIEWPORT, vk::DynamicState::SCISSOR];
+        let dynamic = vk::PipelineDynamicStateCreateInfo::default().dynamic_states(&dynamic);
+        let create = [vk::GraphicsPipelineCreateInfo::default()
+            .stages(&stages)
+            .vertex_input_state(&input)
+            .input_assembly_state(&assembly)
+            .viewport_state(&viewport)
+            .rasterization_state(&raster)
+            .multisample_state(&samples)
+            .depth_stencil_state(&depth)
+            .color_blend_state(&blend)
+            .dynamic_state(&dynamic)
+            .layout(layout)
+            .render_pass(target.pass)];
+        // SAFETY: every part referred to lives past the call; the stages were validated when Swell was built.
+        let made = unsafe { device.raw.create_graphics_pipelines(device.cache.raw, &create, None) };
+        let raw = made.map_err(|(_, result)| result).doing("compiling a pipeline")?[0];
+        device.name(raw, info.name);
+        Ok(Self { raw, device: Arc::clone(device) })
+    }
+
+    /// Draws with this pipeline from here on.
+    pub fn bind(&self, commands: vk::CommandBuffer) {
+        // SAFETY: `commands` is recording inside the pass the pipeline was made for.
+        unsafe { self.device.raw.cmd_bind_pipeline(commands, vk::PipelineBindPoint::GRAPHICS, self.raw) };
+    }
+}
+
+impl Drop for Pipeline {
+    fn drop(&mut self) {
+        // SAFETY: owners drop pipelines only after the frames that use them have ended.
+        unsafe { self.device.raw.destroy_pipeline(self.raw, None) };
+    }
+}
+
+/// A shader module, needed only while a pipeline is made.
+struct Module<'a> {
+    raw: vk::ShaderModule,
+    device: &'a Device,
+}
+
+impl<'a> Module<'a> {
+    fn new(device: &'a Device, spirv: &[u8]) -> Result<Self, GpuError> {
+        // Reading from memory fails only where the length is no multiple of four, which SPIR-V's always is.
+        let words = util::read_spv(&mut Cursor::new(spirv)).unwrap_or_default();
+        let info = vk::ShaderModuleCreateInfo::default().code(&words);
+        // SAFETY: the words were written and validated by naga when Swell was built.
+        let raw =
+            unsafe { device.raw.create_shader_module(&info, None) }.doing("creating a shader module")?;
+        Ok(Self { raw, device })
+    }
+}
+
+impl Drop for Module<'_> {
+    fn drop(&mut self) {
+        // SAFETY: pipelines keep no reference to their modules.
+        unsafe { self.device.raw.destroy_shader_module(self.raw, None) };
+    }
+}
