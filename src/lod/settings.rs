@@ -1,4 +1,6 @@
 //! Parameters of the quadtree ("VR Ocean" section 5 and table 2).
+use super::LodError;
+use super::error::check_range;
 
 /// Named quality levels, table 2.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -52,4 +54,28 @@ pub struct LodSettings {
     pub reach: f64,
     /// Distance to which the skirt continues the sea, as a multiple of `size`.
     pub skirt_extent: f64,
+}
+
+impl LodSettings {
+    /// Levels below the root: `levels`, or L_max of eq (56), clamp(floor(log2(S / 64) + 0.5), 2, 8).
+    pub fn level_count(&self) -> u32 {
+        self.levels.unwrap_or_else(|| (libm::log2(self.size / 64.0) + 0.5).floor().clamp(2.0, 8.0) as u32)
+    }
+
+    /// Largest height above and below rest that culling allows for, metres: `max_height`, or the paper's 0.03 S.
+    pub fn height_bound(&self) -> f64 {
+        self.max_height.unwrap_or(0.03 * self.size)
+    }
+
+    /// Every value in its range.
+    ///
+    /// # Errors
+    /// [`LodError::OutOfRange`] for the first one that is not.
+    pub fn check(&self) -> Result<(), LodError> {
+        check_range("size", self.size, 256.0, 8192.0)?;
+        check_range("levels", f64::from(self.level_count()), 1.0, 8.0)?;
+        check_range("max_height", self.height_bound(), 0.0, 1.0e4)?;
+        check_range("reach", self.reach, 0.0, 1.0e4)?;
+        check_range("skirt_extent", self.skirt_extent, 1.0, 1.0e4)
+    }
 }
