@@ -37,10 +37,13 @@ fn rest_position(in: Patch) -> vec2f {
         edge = 8u;
     }
     // A stitched edge only has the coarser patch's vertices, and moves as that patch moves it.
-    let step = select(1u, 2u, (edge & draw.pattern) != 0u);
-    let slide = vec2f(in.vertex & vec2u(step)) * weight;
-    let unit = (vec2f(in.vertex) - slide) / frame.lod.x - 0.5;
-    return in.place.xy + unit * in.place.z;
+    let halve = select(0u, 1u, (edge & draw.pattern) != 0u);
+    let number = in.vertex >> vec2u(halve);
+    // Odd numbers slide to the nearest multiple of four: 1 to 0, 3 to 4.
+    let odd = vec2f(number & vec2u(1u));
+    let slide = odd * (vec2f(number & vec2u(2u)) - 1.0) * weight;
+    let place = (vec2f(number) + slide) * f32(1u << halve);
+    return in.place.xy + (place / frame.lod.x - 0.5) * in.place.z;
 }
 
 @vertex

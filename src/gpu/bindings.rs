@@ -3,6 +3,7 @@
 use super::device::Device;
 use super::error::{Doing, GpuError};
 use super::image::{Image, Sampler};
+use super::recorder::Recorder;
 use ash::vk;
 use std::sync::Arc;
 
@@ -142,11 +143,11 @@ impl Bindings {
     }
 
     /// Binds set `index` with its uniform block at `offset`.
-    pub fn bind(&self, commands: vk::CommandBuffer, index: usize, offset: u32) {
+    pub fn bind(&self, commands: Recorder<'_>, index: usize, offset: u32) {
         // SAFETY: `commands` is recording; the set is whole.
         unsafe {
             self.device.raw.cmd_bind_descriptor_sets(
-                commands,
+                commands.raw,
                 vk::PipelineBindPoint::GRAPHICS,
                 self.pipeline_layout,
                 0,
@@ -157,12 +158,12 @@ impl Bindings {
     }
 
     /// Sets the `u32` of immediate data.
-    pub fn push(&self, commands: vk::CommandBuffer, value: u32) {
+    pub fn push(&self, commands: Recorder<'_>, value: u32) {
         let bytes = value.to_ne_bytes();
         // SAFETY: the layout declares these four bytes for the vertex stage.
         unsafe {
             let stage = vk::ShaderStageFlags::VERTEX;
-            self.device.raw.cmd_push_constants(commands, self.pipeline_layout, stage, 0, &bytes);
+            self.device.raw.cmd_push_constants(commands.raw, self.pipeline_layout, stage, 0, &bytes);
         }
     }
 }

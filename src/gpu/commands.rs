@@ -4,6 +4,7 @@ use super::buffer::Buffer;
 use super::device::Device;
 use super::error::{Doing, GpuError};
 use super::image::Image;
+use super::recorder::Recorder;
 use ash::vk;
 use gpu_allocator::MemoryLocation;
 use std::sync::Arc;
@@ -13,8 +14,7 @@ pub const FRAMES_IN_FLIGHT: usize = 2;
 
 /// A pool, a buffer and the fence that tells when the buffer's work is done.
 pub struct Commands {
-    /// The buffer to record into.
-    pub raw: vk::CommandBuffer,
+    raw: vk::CommandBuffer,
     pool: vk::CommandPool,
     fence: vk::Fence,
     device: Arc<Device>,
@@ -62,7 +62,7 @@ impl Commands {
     ///
     /// # Errors
     /// The device was lost.
-    pub fn begin(&self) -> Result<vk::CommandBuffer, GpuError> {
+    pub fn begin(&self) -> Result<Recorder<'_>, GpuError> {
         self.wait()?;
         let info = vk::CommandBufferBeginInfo::default().flags(vk::CommandBufferUsageFlags::ONE_TIME_SUBMIT);
         // SAFETY: the work of this pool has ended, as just waited for.
@@ -73,7 +73,7 @@ impl Commands {
                 .doing("resetting a command pool")?;
             self.device.raw.begin_command_buffer(self.raw, &info).doing("recording")?;
         }
-        Ok(self.raw)
+        Ok(Recorder { raw: self.raw, device: &self.device })
     }
 
     /// Ends the recording and hands it to the device.
@@ -148,8 +148,7 @@ impl Transition {
     /// Records the barrier.
     pub fn record<'a>(
         self,
-        device: &Device,
-        commands: vk::CommandBuffer,
+        commands: Recorder<'_>,
         images: impl Iterator<Item = &'a Image>,
         scratch: &mut Vec<vk::ImageMemoryBarrier<'static>>,
     ) {
@@ -167,8 +166,8 @@ impl Transition {
         }));
         // SAFETY: `commands` is recording outside a pass; the images are alive.
         unsafe {
-            device.raw.cmd_pipeline_barrier(
-                commands,
+            commands.device.raw.cmd_pipeline_barrier(
+                commands.raw,
                 self.after.0,
                 self.before.0,
                 vk::DependencyFlags::empty(),
@@ -202,9 +201,9 @@ pub fn upload_buffer(
         .dst_access_mask(vk::AccessFlags::VERTEX_ATTRIBUTE_READ | vk::AccessFlags::INDEX_READ);
     // SAFETY: recording; both buffers are alive until the wait below and hold `size` bytes.
     unsafe {
-        device.raw.cmd_copy_buffer(recording, staging.raw, buffer.raw, &region);
+        device.raw.cmd_copy_buffer(recording.raw, staging.raw, buffer.raw, &region);
         device.raw.cmd_pipeline_barrier(
-            recording,
+            recording.raw,
             vk::PipelineStageFlags::TRANSFER,
             vk::PipelineStageFlags::VERTEX_INPUT,
             vk::DependencyFlags::empty(),
@@ -229,13 +228,9 @@ pub fn upload_image(device: &Arc<Device>, image: &Image, data: &[u8], texel: u64
     let recording = commands.begin()?;
     let (mut regions, mut scratch) = (Vec::new(), Vec::new());
     image.copy_regions(0, texel, &mut regions);
-    Transition::FILL.record(device, recording, std::iter::once(image), &mut scratch);
-    // SAFETY: recording; the image is in the layout named and the staging buffer lives until the wait below.
-    unsafe {
-        let layout = vk::ImageLayout::TRANSFER_DST_OPTIMAL;
-        device.raw.cmd_copy_buffer_to_image(recording, staging.raw, image.raw, layout, &regions);
-    }
-    Transition::SAMPLE.record(device, recording, std::iter::once(image), &mut scratch);
+    Transition::FILL.record(recording, std::iter::once(image), &mut scratch);
+    recording.copy_to_image(staging.raw, image, &regions);
+    Transition::SAMPLE.record(recording, std::iter::once(image), &mut scratch);
     commands.submit()?;
     commands.wait()
 }

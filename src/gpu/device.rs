@@ -96,8 +96,7 @@ impl Device {
         let _unnamed = unsafe { debug.set_debug_utils_object_name(&info) };
     }
 
-    /// Opens a labelled span in a command buffer; close it with [`Self::end_label`].
-    pub fn begin_label(&self, commands: vk::CommandBuffer, name: &std::ffi::CStr) {
+    pub(super) fn begin_label(&self, commands: vk::CommandBuffer, name: &std::ffi::CStr) {
         if let Some(debug) = &self.debug {
             let label = vk::DebugUtilsLabelEXT::default().label_name(name);
             // SAFETY: the command buffer is recording.
@@ -105,8 +104,7 @@ impl Device {
         }
     }
 
-    /// Closes the span opened last.
-    pub fn end_label(&self, commands: vk::CommandBuffer) {
+    pub(super) fn end_label(&self, commands: vk::CommandBuffer) {
         if let Some(debug) = &self.debug {
             // SAFETY: the command buffer is recording and a label is open.
             unsafe { debug.cmd_end_debug_utils_label(commands) };

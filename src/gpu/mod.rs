@@ -14,6 +14,7 @@ mod messages;
 mod physical;
 mod pipeline;
 mod pipeline_cache;
+mod recorder;
 mod ring;
 mod target;
 
@@ -27,5 +28,6 @@ pub use image::{Image, ImageInfo, Sampler};
 pub use instance::{API_VERSION, Instance, Validation};
 pub use physical::{PhysicalDevice, version};
 pub use pipeline::{DepthUse, Pipeline, PipelineInfo, VertexInput};
+pub use recorder::Recorder;
 pub use ring::UploadRing;
 pub use target::{DEPTH_FORMAT, Target, TargetInfo};

@@ -2,6 +2,7 @@
 
 use super::device::Device;
 use super::error::{Doing, GpuError};
+use super::recorder::Recorder;
 use super::target::Target;
 use ash::{util, vk};
 use std::io::Cursor;
@@ -121,9 +122,9 @@ impl Pipeline {
     }
 
     /// Draws with this pipeline from here on.
-    pub fn bind(&self, commands: vk::CommandBuffer) {
+    pub fn bind(&self, commands: Recorder<'_>) {
         // SAFETY: `commands` is recording inside the pass the pipeline was made for.
-        unsafe { self.device.raw.cmd_bind_pipeline(commands, vk::PipelineBindPoint::GRAPHICS, self.raw) };
+        unsafe { self.device.raw.cmd_bind_pipeline(commands.raw, vk::PipelineBindPoint::GRAPHICS, self.raw) };
     }
 }
 

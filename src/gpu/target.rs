@@ -3,9 +3,11 @@
 //! One pass with one subpass. With more than one sample the colour is resolved inside the pass, so that on a tiled GPU
 //! neither the samples nor the depth ever leave the tile.
 
+use super::buffer::Buffer;
 use super::device::Device;
 use super::error::{Doing, GpuError};
 use super::image::{Image, ImageInfo};
+use super::recorder::Recorder;
 use ash::vk;
 use std::sync::Arc;
 
@@ -110,7 +112,7 @@ impl Target {
     }
 
     /// Begins the pass with colour cleared to `clear` and depth to 0, and sets viewport and scissor.
-    pub fn begin(&self, commands: vk::CommandBuffer, clear: [f32; 4]) {
+    pub fn begin(&self, commands: Recorder<'_>, clear: [f32; 4]) {
         let clears = [
             vk::ClearValue { color: vk::ClearColorValue { float32: clear } },
             vk::ClearValue { depth_stencil: vk::ClearDepthStencilValue { depth: 0.0, stencil: 0 } },
@@ -126,20 +128,20 @@ impl Target {
         let viewport = vk::Viewport { x: 0.0, y: 0.0, width, height, min_depth: 0.0, max_depth: 1.0 };
         // SAFETY: `commands` is recording outside a pass; pass and framebuffer are alive.
         unsafe {
-            self.device.raw.cmd_begin_render_pass(commands, &begin, vk::SubpassContents::INLINE);
-            self.device.raw.cmd_set_viewport(commands, 0, &[viewport]);
-            self.device.raw.cmd_set_scissor(commands, 0, &[area]);
+            self.device.raw.cmd_begin_render_pass(commands.raw, &begin, vk::SubpassContents::INLINE);
+            self.device.raw.cmd_set_viewport(commands.raw, 0, &[viewport]);
+            self.device.raw.cmd_set_scissor(commands.raw, 0, &[area]);
         }
     }
 
     /// Ends the pass; the finished image is then in `TRANSFER_SRC_OPTIMAL`.
-    pub fn end(&self, commands: vk::CommandBuffer) {
+    pub fn end(&self, commands: Recorder<'_>) {
         // SAFETY: the pass begun by `begin` is open.
-        unsafe { self.device.raw.cmd_end_render_pass(commands) };
+        unsafe { self.device.raw.cmd_end_render_pass(commands.raw) };
     }
 
     /// Records a copy of the finished image, view after view, to the start of `buffer`.
-    pub fn copy_to(&self, commands: vk::CommandBuffer, buffer: vk::Buffer) {
+    pub fn copy_to(&self, commands: Recorder<'_>, buffer: &Buffer) {
         let mut regions = Vec::with_capacity(1);
         self.finished.copy_regions(0, 4, &mut regions);
         let layout = vk::ImageLayout::TRANSFER_SRC_OPTIMAL;
@@ -148,9 +150,15 @@ impl Target {
             .dst_access_mask(vk::AccessFlags::HOST_READ);
         // SAFETY: the pass has ended, which made the image readable by copies; the buffer holds all its texels.
         unsafe {
-            self.device.raw.cmd_copy_image_to_buffer(commands, self.finished.raw, layout, buffer, &regions);
+            self.device.raw.cmd_copy_image_to_buffer(
+                commands.raw,
+                self.finished.raw,
+                layout,
+                buffer.raw,
+                &regions,
+            );
             self.device.raw.cmd_pipeline_barrier(
-                commands,
+                commands.raw,
                 vk::PipelineStageFlags::TRANSFER,
                 vk::PipelineStageFlags::HOST,
                 vk::DependencyFlags::empty(),

@@ -1,0 +1,169 @@
+//! The sea's patches and skirt.
+
+use super::shaders;
+use crate::gpu::{
+    Bindings, Buffer, DepthUse, Device, GpuError, Pipeline, PipelineInfo, Recorder, Target, UploadRing,
+    VertexInput, upload_buffer,
+};
+use crate::lod::{self, Pattern, Selection};
+use ash::vk;
+use std::ffi::CStr;
+use std::ops::Range;
+use std::sync::Arc;
+
+/// What is drawn on the surface.
+#[derive(Clone, Copy)]
+pub struct Layer {
+    /// SPIR-V of the fragment stage.
+    pub fragment: &'static [u8],
+    /// Its entry point.
+    pub entry: &'static CStr,
+    /// Edges instead of triangles, drawn over what is there.
+    pub lines: bool,
+}
+
+/// Meshes and pipelines of the sea's surface.
+pub struct Ocean {
+    layers: Vec<[Pipeline; 2]>,
+    vertices: Buffer,
+    indices: Buffer,
+    /// Where each pattern's indices are in `indices`.
+    patterns: Vec<Range<u32>>,
+    skirt_vertices: Buffer,
+    skirt_indices: Buffer,
+}
+
+/// What a frame's sea took to draw.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct DrawCounts {
+    /// Draw calls.
+    pub draws: u32,
+    /// Patches.
+    pub patches: u32,
+    /// Triangles, of patches and skirt, for each view.
+    pub triangles: u32,
+}
+
+impl Ocean {
+    /// Meshes for patches of `cells` x `cells`, a skirt for `settings`, and a pair of pipelines for each layer.
+    ///
+    /// # Errors
+    /// Out of memory, or the device cannot draw lines.
+    pub fn new(
+        device: &Arc<Device>,
+        target: &Target,
+        bindings: &Bindings,
+        settings: &lod::LodSettings,
+        cascades: usize,
+        layers: &[Layer],
+    ) -> Result<Self, GpuError> {
+        let cells = settings.quality.preset().cells;
+        let grid = lod::grid::vertices(cells);
+        let vertices =
+            upload_buffer(device, "grid", bytemuck::cast_slice(&grid), vk::BufferUsageFlags::VERTEX_BUFFER)?;
+        let (mut all, mut patterns): (Vec<u16>, _) = (Vec::new(), Vec::new());
+        for pattern in Pattern::all() {
+            let start = all.len() as u32;
+            all.extend(lod::grid::indices(cells, pattern));
+            patterns.push(start..all.len() as u32);
+        }
+        let indices =
+            upload_buffer(device, "patterns", bytemuck::cast_slice(&all), vk::BufferUsageFlags::INDEX_BUFFER)?;
+        let (skirt, skirt_indices) = lod::skirt(settings.size, settings.skirt_extent);
+        let skirt_vertices =
+            upload_buffer(device, "skirt", bytemuck::cast_slice(&skirt), vk::BufferUsageFlags::VERTEX_BUFFER)?;
+        let skirt_indices = upload_buffer(
+            device,
+            "skirt indices",
+            bytemuck::cast_slice(&skirt_indices),
+            vk::BufferUsageFlags::INDEX_BUFFER,
+        )?;
+        let make = |layer: &Layer| {
+            let info = |name, vertex, input| PipelineInfo {
+                name,
+                vertex,
+                fragment: (layer.fragment, layer.entry),
+                input,
+                depth: if layer.lines { DepthUse::Raised } else { DepthUse::Solid },
+                lines: layer.lines,
+            };
+            let patch = info("patches", shaders::OCEAN_VERTEX_MAIN[cascades - 1], PATCH_INPUT);
+            let skirt = info("skirt", shaders::SKIRT_VERTEX_MAIN, SKIRT_INPUT);
+            let layout = bindings.pipeline_layout;
+            Ok([Pipeline::new(device, target, layout, &patch)?, Pipeline::new(device, target, layout, &skirt)?])
+        };
+        let layers = layers.iter().map(make).collect::<Result<_, GpuError>>()?;
+        Ok(Self { layers, vertices, indices, patterns, skirt_vertices, skirt_indices })
+    }
+
+    /// Records the draws of `selection`, inside the pass.
+    ///
+    /// # Errors
+    /// The ring is full.
+    pub fn draw(
+        &self,
+        commands: Recorder<'_>,
+        bindings: &Bindings,
+        ring: &mut UploadRing,
+        selection: &Selection,
+    ) -> Result<DrawCounts, GpuError> {
+        commands.begin_label(c"sea");
+        let instances = ring.push(bytemuck::cast_slice(selection.instances()), 16)?;
+        let mut counts = DrawCounts::default();
+        for [patches, skirt] in &self.layers {
+            patches.bind(commands);
+            commands.vertex_buffer(0, self.vertices.raw, 0);
+            commands.vertex_buffer(1, ring.buffer(), instances);
+            commands.index_buffer(&self.indices);
+            for batch in selection.batches() {
+                bindings.push(commands, u32::from(batch.pattern.bits()));
+                let indices = self.patterns[batch.pattern.index()].clone();
+                let (triangles, patches) = (indices.len() as u32 / 3, batch.instances.len() as u32);
+                commands.draw_indexed(indices, batch.instances);
+                counts.draws += 1;
+                counts.patches += patches;
+                counts.triangles += triangles * patches;
+            }
+            skirt.bind(commands);
+            commands.vertex_buffer(0, self.skirt_vertices.raw, 0);
+            commands.index_buffer(&self.skirt_indices);
+            commands.draw_indexed(0..lod::skirt::SKIRT_INDICES as u32, 0..1);
+            counts.draws += 1;
+            counts.triangles += lod::skirt::SKIRT_INDICES as u32 / 3;
+        }
+        commands.end_label();
+        Ok(counts)
+    }
+
+    /// Bytes of instances that a frame may need.
+    pub const fn instance_bytes(most_patches: usize) -> u64 {
+        (most_patches * size_of::<lod::Instance>()) as u64 + 16
+    }
+}
+
+const fn field(location: u32, binding: u32, format: vk::Format, offset: u32) -> vk::VertexInputAttributeDescription {
+    vk::VertexInputAttributeDescription { location, binding, format, offset }
+}
+
+const fn buffer(binding: u32, stride: u32, input_rate: vk::VertexInputRate) -> vk::VertexInputBindingDescription {
+    vk::VertexInputBindingDescription { binding, stride, input_rate }
+}
+
+/// `Patch` of `shaders/ocean.wgsl`: a grid vertex, and an instance of [`lod::Instance`].
+const PATCH_INPUT: VertexInput<'static> = VertexInput {
+    bindings: &[
+        buffer(0, 4, vk::VertexInputRate::VERTEX),
+        buffer(1, size_of::<lod::Instance>() as u32, vk::VertexInputRate::INSTANCE),
+    ],
+    attributes: &[
+        field(0, 0, vk::Format::R16G16_UINT, 0),
+        field(1, 1, vk::Format::R32G32B32A32_SFLOAT, 0),
+        field(2, 1, vk::Format::R32G32B32A32_SFLOAT, 16),
+    ],
+};
+
+/// [`lod::SkirtVertex`].
+const SKIRT_INPUT: VertexInput<'static> = VertexInput {
+    bindings: &[buffer(0, size_of::<lod::SkirtVertex>() as u32, vk::VertexInputRate::VERTEX)],
+    attributes: &[field(0, 0, vk::Format::R32G32B32A32_SFLOAT, 0)],
+};

@@ -1,0 +1,171 @@
+//! One frame: the maps uploaded, the sea and the sky drawn in one pass. Hosts decide when, from where and into what.
+
+use super::camera::{self, Eye};
+use super::debug_view::Look;
+use super::ocean::{DrawCounts, Ocean};
+use super::sea_textures::SeaTextures;
+use super::shaders::BINDINGS;
+use super::sky::Sky;
+use super::sky_map::{self, SkyMap};
+use super::uniforms::{Frame, Spacing};
+use super::foam_pattern;
+use crate::gpu::{
+    Bindings, Device, FRAMES_IN_FLIGHT, GpuError, Image, ImageInfo, Recorder, Resource, Sampler, Target,
+    UploadRing, upload_image,
+};
+use crate::lod::{Frustum, LodError, Quadtree};
+use crate::scene::Scene;
+use crate::sea::SeaMaps;
+use ash::vk;
+use std::sync::Arc;
+
+/// A frame that cannot be drawn.
+#[derive(Debug, thiserror::Error)]
+pub enum DrawError {
+    /// Vulkan or memory.
+    #[error(transparent)]
+    Gpu(#[from] GpuError),
+    /// The scene's level of detail.
+    #[error(transparent)]
+    Lod(#[from] LodError),
+}
+
+/// Room for instances: some ten times what the largest tree draws.
+const MOST_PATCHES: usize = 4096;
+
+/// Everything a scene needs to be drawn into targets of one kind.
+pub struct Renderer {
+    ocean: Ocean,
+    sky: Option<Sky>,
+    look: Look,
+    tree: Quadtree,
+    frusta: Vec<Frustum>,
+    still: Frame,
+    ring: UploadRing,
+    uniform_align: u64,
+    textures: Vec<SeaTextures>,
+    bindings: Bindings,
+    /// Kept for the descriptor sets, which refer to them.
+    _shared: (Image, Image, Sampler, Sampler),
+}
+
+impl Renderer {
+    /// Makes textures, meshes and pipelines for `scene`, seen as `look`, in targets like `target`.
+    ///
+    /// # Errors
+    /// Out of device memory, or the device cannot draw this look.
+    pub fn new(
+        device: &Arc<Device>,
+        target: &Target,
+        scene: &Scene,
+        sky_map: &SkyMap,
+        look: Look,
+    ) -> Result<Self, DrawError> {
+        let cascades = scene.sea.cascades.len();
+        let tree = Quadtree::new(&scene.lod)?;
+        let cells = tree.preset().cells;
+        let spacing = Spacing {
+            per_metre: tree.spacing_per_metre(),
+            finest: tree.finest_spacing(),
+            coarsest: tree.coarsest_spacing(),
+        };
+        let still = Frame::still(scene, sky_map, scene.sea.rms_height(), cells, spacing);
+        let limits = &device.physical.limits;
+        let uniform_align = limits.min_uniform_buffer_offset_alignment.max(16);
+        let share = SeaTextures::bytes(&scene.sea)
+            + Ocean::instance_bytes(MOST_PATCHES)
+            + size_of::<Frame>() as u64
+            + uniform_align
+            + 1024;
+        let ring = UploadRing::new(device, FRAMES_IN_FLIGHT as u64, share)?;
+        let bindings = Bindings::new(device, BINDINGS, FRAMES_IN_FLIGHT)?;
+        let ocean = Ocean::new(device, target, &bindings, &scene.lod, cascades, &look.layers(cascades))?;
+        let sky = if look.has_sky() { Some(Sky::new(device, target, &bindings)?) } else { None };
+        let shared = shared_textures(device, sky_map)?;
+        let textures = (0..FRAMES_IN_FLIGHT)
+            .map(|_| SeaTextures::new(device, &scene.sea))
+            .collect::<Result<Vec<_>, _>>()?;
+        for (slot, textures) in textures.iter().enumerate() {
+            bindings.write(slot, |binding| match binding {
+                0 => Resource::Uniform(ring.buffer(), size_of::<Frame>() as u64),
+                // Shaders for fewer cascades never look at the textures of the others: any image will do there.
+                1..=4 => Resource::Texture(&textures.displacement[(binding as usize - 1).min(cascades - 1)]),
+                5..=8 => Resource::Texture(&textures.gradient[(binding as usize - 5).min(cascades - 1)]),
+                9 => Resource::Texture(&shared.0),
+                10 => Resource::Texture(&shared.1),
+                11 => Resource::Sampler(&shared.2),
+                _ => Resource::Sampler(&shared.3),
+            });
+        }
+        Ok(Self {
+            ocean,
+            sky,
+            look,
+            tree,
+            frusta: Vec::with_capacity(2),
+            still,
+            ring,
+            uniform_align,
+            textures,
+            bindings,
+            _shared: shared,
+        })
+    }
+
+    /// Records one frame seen by `eyes` (one for each of the target's views) with the sea of `maps`. `slot` is the
+    /// frame in flight whose last use has ended.
+    ///
+    /// # Errors
+    /// The upload ring is too small, which means that the maps are not the scene's.
+    pub fn record(
+        &mut self,
+        commands: Recorder<'_>,
+        target: &Target,
+        slot: usize,
+        eyes: &[Eye],
+        maps: &SeaMaps,
+    ) -> Result<DrawCounts, DrawError> {
+        let head = camera::head(eyes);
+        self.frusta.clear();
+        self.frusta.extend(eyes.iter().map(|eye| eye.frustum(head)));
+        let selection = self.tree.select(head, &self.frusta);
+        self.ring.begin(slot as u64);
+        self.still.turn(eyes, selection.origin(), maps);
+        let uniforms = self.ring.push(bytemuck::bytes_of(&self.still), self.uniform_align)?;
+        self.textures[slot].upload(commands, &mut self.ring, maps)?;
+        target.begin(commands, self.look.clear());
+        self.bindings.bind(commands, slot, u32::try_from(uniforms).unwrap_or(u32::MAX));
+        let counts = self.ocean.draw(commands, &self.bindings, &mut self.ring, selection)?;
+        if let Some(sky) = &self.sky {
+            sky.draw(commands);
+        }
+        target.end(commands);
+        Ok(counts)
+    }
+
+    /// Bytes uploaded by the latest frame.
+    pub const fn uploaded(&self) -> u64 {
+        self.ring.used()
+    }
+}
+
+/// The sky's cube, the foam's pattern, and a tiling and a clamping sampler.
+fn shared_textures(
+    device: &Arc<Device>,
+    sky_map: &SkyMap,
+) -> Result<(Image, Image, Sampler, Sampler), GpuError> {
+    let cube = ImageInfo {
+        layers: 6,
+        view: vk::ImageViewType::CUBE,
+        ..ImageInfo::texture(sky_map::FACE as u32, sky_map::MIPS as u32, vk::Format::R16G16B16A16_SFLOAT)
+    };
+    let sky = Image::new(device, "sky", cube)?;
+    upload_image(device, &sky, bytemuck::cast_slice(&sky_map.texels), 8)?;
+    let pattern =
+        ImageInfo::texture(foam_pattern::SIZE as u32, foam_pattern::MIPS as u32, vk::Format::R8_UNORM);
+    let foam = Image::new(device, "foam pattern", pattern)?;
+    upload_image(device, &foam, &foam_pattern::texels(), 1)?;
+    let tiling = Sampler::new(device, "tiling", vk::SamplerAddressMode::REPEAT, 1.0)?;
+    let clamped = Sampler::new(device, "clamped", vk::SamplerAddressMode::CLAMP_TO_EDGE, 1.0)?;
+    Ok((sky, foam, tiling, clamped))
+}

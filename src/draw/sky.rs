@@ -1,0 +1,36 @@
+//! The sky behind everything.
+
+use super::shaders;
+use crate::gpu::{
+    Bindings, DepthUse, Device, GpuError, Pipeline, PipelineInfo, Recorder, Target, VertexInput,
+};
+use std::sync::Arc;
+
+/// The sky's pipeline; its light is in the cube texture.
+pub struct Sky(Pipeline);
+
+impl Sky {
+    /// Compiles it for `target`.
+    ///
+    /// # Errors
+    /// The driver refuses.
+    pub fn new(device: &Arc<Device>, target: &Target, bindings: &Bindings) -> Result<Self, GpuError> {
+        let info = PipelineInfo {
+            name: "sky",
+            vertex: shaders::SKY_VERTEX_MAIN,
+            fragment: (shaders::SKY_FRAGMENT_MAIN, c"fragment_main"),
+            input: VertexInput::default(),
+            depth: DepthUse::Background,
+            lines: false,
+        };
+        Ok(Self(Pipeline::new(device, target, bindings.pipeline_layout, &info)?))
+    }
+
+    /// Draws it, last, inside the pass.
+    pub fn draw(&self, commands: Recorder<'_>) {
+        commands.begin_label(c"sky");
+        self.0.bind(commands);
+        commands.draw(3);
+        commands.end_label();
+    }
+}

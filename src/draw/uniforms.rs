@@ -1,0 +1,128 @@
+//! The uniform block: the Rust twin of `shaders/frame.wgsl`.
+
+use super::camera::{self, Eye};
+use super::shaders::UNIFORM_SIZE;
+use super::sky_map::{self, SkyMap};
+use crate::scene::Scene;
+use crate::sea::{MAX_CASCADES, SeaMaps};
+use bytemuck::{Pod, Zeroable};
+use glam::{DVec2, DVec3, Mat4, Vec3, Vec4};
+
+/// How one cascade's maps are addressed.
+#[repr(C)]
+#[derive(Clone, Copy, Default, Pod, Zeroable)]
+pub struct Cascade {
+    offset: [f32; 2],
+    axes: [f32; 2],
+    per_metre: f32,
+    log_texel: f32,
+    unused: [f32; 2],
+}
+
+/// Everything shaders see but textures. Fields as in the WGSL, where each is explained.
+#[repr(C)]
+#[derive(Clone, Copy, Default, Pod, Zeroable)]
+pub struct Frame {
+    view_projection: [Mat4; 2],
+    clip_to_ray: [Mat4; 2],
+    eyes: [Vec4; 2],
+    head: Vec4,
+    cascades: [Cascade; MAX_CASCADES],
+    sun: Vec4,
+    sun_light: Vec4,
+    sky_light: Vec4,
+    deep: Vec4,
+    scatter: Vec4,
+    foam: Vec4,
+    foam_range: Vec4,
+    lod: Vec4,
+    air: Vec4,
+}
+
+const _: () = assert!(size_of::<Frame>() == UNIFORM_SIZE, "Frame and shaders/frame.wgsl differ");
+
+/// Radius of the sun's disc, radians.
+const SUN_RADIUS: f32 = 0.004_65;
+/// With 0 stops of exposure a white wall in full sun (about 35 kcd/m^2) is just below white.
+const EXPOSURE: f64 = 0.06;
+/// Metres across which the foam's pattern repeats.
+const FOAM_REPEAT: f32 = 11.0;
+/// Koschmieder's 2 % of contrast: -ln 0.02.
+const VISIBILITY: f64 = 3.912;
+
+/// What the vertex spacing needs: bounds in metres and the growth with distance.
+#[derive(Clone, Copy, Debug)]
+pub struct Spacing {
+    /// Metres of spacing for each metre of distance.
+    pub per_metre: f64,
+    /// Of the finest patches.
+    pub finest: f64,
+    /// Of the coarsest.
+    pub coarsest: f64,
+}
+
+impl Frame {
+    /// All that stays as it is from frame to frame.
+    #[expect(clippy::cast_possible_truncation, reason = "scene values, far inside f32")]
+    pub fn still(scene: &Scene, sky: &SkyMap, rms_height: f64, cells: u32, spacing: Spacing) -> Self {
+        let color = |c: [f32; 3], w: f64| Vec3::from(c).extend(w as f32);
+        let (water, foam) = (&scene.water, &scene.sea.foam);
+        let height = rms_height.max(0.01);
+        // The disc's radiance is far beyond white: limited, so that resolving samples leaves its edge round.
+        let disc = (1.0 / (std::f32::consts::PI * SUN_RADIUS * SUN_RADIUS)).min(60.0);
+        let texels_per_radian = sky_map::FACE as f32 / std::f32::consts::FRAC_PI_2;
+        Self {
+            sun: sky.sun.extend(SUN_RADIUS.cos()),
+            sun_light: sky.sun_light.extend(disc),
+            sky_light: sky.sky_light.extend(0.0),
+            deep: color(water.deep_color, water.detail),
+            scatter: color(water.scatter_color, water.scatter / height),
+            foam: color(water.foam_color, 0.0),
+            foam_range: Vec4::new(
+                foam.threshold as f32,
+                1.0 / foam.width.max(1e-3) as f32,
+                1.0 / FOAM_REPEAT,
+                (0.25 / height) as f32,
+            ),
+            lod: Vec4::new(
+                cells as f32,
+                scene.lod.size as f32,
+                spacing.per_metre as f32,
+                spacing.finest as f32,
+            ),
+            air: Vec4::new(
+                (VISIBILITY / scene.sky.visibility) as f32,
+                (EXPOSURE * scene.sky.exposure.exp2()) as f32,
+                // A lobe of roughness alpha spreads over sqrt(2) alpha radians: the mip whose texels are that wide.
+                (std::f32::consts::SQRT_2 * texels_per_radian).log2(),
+                spacing.coarsest as f32,
+            ),
+            ..Self::default()
+        }
+    }
+
+    /// Turns the frame to this moment: the eyes, and the maps' place relative to `origin` (world x, z).
+    #[expect(clippy::cast_possible_truncation, reason = "reduced in f64 first")]
+    pub fn turn(&mut self, eyes: &[Eye], origin: DVec2, maps: &SeaMaps) {
+        let origin3 = DVec3::new(origin.x, 0.0, origin.y);
+        for (i, eye) in eyes.iter().take(2).enumerate() {
+            self.view_projection[i] = eye.view_projection(origin3);
+            self.clip_to_ray[i] = eye.clip_to_ray();
+            self.eyes[i] = (eye.position - origin3).as_vec3().extend(1.0);
+        }
+        self.head = (camera::head(eyes) - origin3).as_vec3().extend(1.0);
+        for (slot, maps) in self.cascades.iter_mut().zip(&maps.cascades) {
+            let (sin, cos) = maps.rotation.sin_cos();
+            let along = DVec2::new(origin.x * cos - origin.y * sin, origin.x * sin + origin.y * cos);
+            let unit = along / maps.patch_size;
+            let offset = unit - unit.floor() + 0.5 / maps.resolution as f64;
+            *slot = Cascade {
+                offset: offset.as_vec2().into(),
+                axes: [cos as f32, sin as f32],
+                per_metre: (1.0 / maps.patch_size) as f32,
+                log_texel: (maps.patch_size / maps.resolution as f64).log2() as f32,
+                unused: [0.0; 2],
+            };
+        }
+    }
+}

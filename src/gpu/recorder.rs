@@ -1,0 +1,61 @@
+//! Recording of one frame's commands, in safe words.
+
+use super::buffer::Buffer;
+use super::device::Device;
+use super::image::Image;
+use ash::vk;
+use std::ffi::CStr;
+use std::ops::Range;
+
+/// A command buffer being recorded. [`super::Commands::begin`] gives it, [`super::Commands::submit`] ends it.
+#[derive(Clone, Copy)]
+pub struct Recorder<'a> {
+    pub(super) raw: vk::CommandBuffer,
+    pub(super) device: &'a Device,
+}
+
+impl Recorder<'_> {
+    /// Opens a span that captures and validation messages show.
+    pub fn begin_label(self, name: &CStr) {
+        self.device.begin_label(self.raw, name);
+    }
+
+    /// Closes the span opened last.
+    pub fn end_label(self) {
+        self.device.end_label(self.raw);
+    }
+
+    /// Reads vertices (or instances) of input binding `slot` from `buffer` at `offset`.
+    pub fn vertex_buffer(self, slot: u32, buffer: vk::Buffer, offset: u64) {
+        // SAFETY: recording; owners keep buffers until the frames that use them have ended.
+        unsafe { self.device.raw.cmd_bind_vertex_buffers(self.raw, slot, &[buffer], &[offset]) };
+    }
+
+    /// Reads 16-bit indices from `buffer`.
+    pub fn index_buffer(self, buffer: &Buffer) {
+        // SAFETY: as for vertices.
+        unsafe { self.device.raw.cmd_bind_index_buffer(self.raw, buffer.raw, 0, vk::IndexType::UINT16) };
+    }
+
+    /// Draws `indices` for each of `instances`. Pipeline, bindings and buffers are bound and cover both ranges.
+    pub fn draw_indexed(self, indices: Range<u32>, instances: Range<u32>) {
+        let (count, copies) = (indices.len() as u32, instances.len() as u32);
+        // SAFETY: the renderer binds what its pipelines read, over ranges it made itself.
+        unsafe {
+            self.device.raw.cmd_draw_indexed(self.raw, count, copies, indices.start, 0, instances.start);
+        }
+    }
+
+    /// Draws `vertices` vertices that come from no buffer.
+    pub fn draw(self, vertices: u32) {
+        // SAFETY: as above.
+        unsafe { self.device.raw.cmd_draw(self.raw, vertices, 1, 0, 0) };
+    }
+
+    /// Fills `image`, which is in `TRANSFER_DST_OPTIMAL`, from `buffer`.
+    pub fn copy_to_image(self, buffer: vk::Buffer, image: &Image, regions: &[vk::BufferImageCopy]) {
+        let layout = vk::ImageLayout::TRANSFER_DST_OPTIMAL;
+        // SAFETY: recording outside a pass; regions were made from the image's own size, within the buffer.
+        unsafe { self.device.raw.cmd_copy_buffer_to_image(self.raw, buffer, image.raw, layout, regions) };
+    }
+}

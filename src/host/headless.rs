@@ -1,0 +1,163 @@
+//! Frames without a screen: the frame loop around an offscreen target.
+
+use crate::draw::{self, DrawCounts, Eye, Look, Renderer, SkyMap};
+use crate::gpu::{
+    Buffer, Commands, Device, FRAMES_IN_FLIGHT, GpuError, Instance, MemoryLocation, PhysicalDevice, Target,
+    TargetInfo, Validation,
+};
+use crate::host::HostError;
+use crate::jobs::Workers;
+use crate::scene::Scene;
+use crate::sea::{Sea, SeaAhead};
+use ash::vk;
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::thread;
+
+/// What to draw, and with what.
+#[derive(Clone, Debug)]
+pub struct HeadlessSettings {
+    /// Pixels of one view.
+    pub size: [u32; 2],
+    /// Two views, from the scene camera's two eyes.
+    pub stereo: bool,
+    /// What is drawn on the surface; [`Look::Metres`] gives `f32` pixels, all others sRGB bytes (RGBA).
+    pub look: Look,
+    /// Part of the name of the Vulkan device to use.
+    pub device: Option<String>,
+    /// Whether validation listens.
+    pub validation: Validation,
+    /// Worker threads for the sea; 0 for one a core.
+    pub threads: usize,
+    /// Where compiled pipelines are kept.
+    pub cache: Option<PathBuf>,
+}
+
+/// One finished frame.
+pub struct Finished<'a> {
+    /// Which of the times it is.
+    pub index: usize,
+    /// Pixels, rows from the top, view after view, four bytes each.
+    pub pixels: &'a [u8],
+    /// What it took to draw.
+    pub counts: DrawCounts,
+}
+
+/// A renderer, its target and its sea.
+pub struct Headless {
+    sea: SeaAhead,
+    renderer: Renderer,
+    eyes: Vec<Eye>,
+    commands: Vec<Commands>,
+    readback: Vec<Buffer>,
+    target: Target,
+    device: Arc<Device>,
+}
+
+impl Headless {
+    /// Opens Vulkan, makes the sea and the sky side by side, and begins the sea's step to `first` (seconds).
+    ///
+    /// # Errors
+    /// No usable device, a sky file that cannot be read, a size beyond the device, out of memory.
+    pub fn new(scene: &Scene, settings: &HeadlessSettings, first: f64) -> Result<Self, HostError> {
+        thread::scope(|scope| {
+            let sea = scope.spawn(|| begin_sea(scene, settings.threads, first));
+            let sky = scope.spawn(|| SkyMap::new(&scene.sky));
+            let device = open_device(settings)?;
+            let metres = settings.look == Look::Metres;
+            let target = Target::new(
+                &device,
+                TargetInfo {
+                    extent: vk::Extent2D { width: settings.size[0], height: settings.size[1] },
+                    views: if settings.stereo { 2 } else { 1 },
+                    format: if metres { vk::Format::R32_SFLOAT } else { vk::Format::R8G8B8A8_SRGB },
+                    // A height between two surfaces would be the height of neither.
+                    samples: if metres { vk::SampleCountFlags::TYPE_1 } else { vk::SampleCountFlags::TYPE_4 },
+                },
+            )?;
+            let sky = joined(sky.join())??;
+            let renderer = Renderer::new(&device, &target, scene, &sky, settings.look)?;
+            let commands = (0..FRAMES_IN_FLIGHT)
+                .map(|i| Commands::new(&device, &format!("frame {i}")))
+                .collect::<Result<_, GpuError>>()?;
+            let usage = vk::BufferUsageFlags::TRANSFER_DST;
+            let readback = (0..FRAMES_IN_FLIGHT)
+                .map(|_| Buffer::new(&device, "readback", target.bytes(), usage, MemoryLocation::GpuToCpu))
+                .collect::<Result<_, GpuError>>()?;
+            #[expect(clippy::cast_precision_loss, reason = "picture sizes")]
+            let aspect = settings.size[0] as f32 / settings.size[1] as f32;
+            let eyes = draw::eyes(&scene.camera, aspect, settings.stereo);
+            Ok(Self { sea: joined(sea.join())??, renderer, eyes, commands, readback, target, device })
+        })
+    }
+
+    /// Draws the sea at each of `times`, the first being the one given to [`Self::new`], and hands every finished frame
+    /// to `take`. While one frame is drawn the next one's sea is simulated and the one before is taken.
+    ///
+    /// # Errors
+    /// The device or a worker failed, or `take` did.
+    pub fn run(
+        &mut self,
+        times: &[f64],
+        mut take: impl FnMut(Finished<'_>) -> Result<(), HostError>,
+    ) -> Result<(), HostError> {
+        let mut drawn = [DrawCounts::default(); FRAMES_IN_FLIGHT];
+        for index in 0..times.len() {
+            let slot = index % FRAMES_IN_FLIGHT;
+            let maps = self.sea.next(times.get(index + 1).copied())?;
+            let commands = self.commands[slot].begin()?;
+            drawn[slot] = self.renderer.record(commands, &self.target, slot, &self.eyes, maps)?;
+            self.target.copy_to(commands, &self.readback[slot]);
+            self.commands[slot].submit()?;
+            if let Some(before) = index.checked_sub(1) {
+                self.finish(before, &drawn, &mut take)?;
+            }
+        }
+        match times.len().checked_sub(1) {
+            Some(last) => self.finish(last, &drawn, &mut take),
+            None => Ok(()),
+        }
+    }
+
+    fn finish(
+        &self,
+        index: usize,
+        drawn: &[DrawCounts; FRAMES_IN_FLIGHT],
+        take: &mut impl FnMut(Finished<'_>) -> Result<(), HostError>,
+    ) -> Result<(), HostError> {
+        let slot = index % FRAMES_IN_FLIGHT;
+        self.commands[slot].wait()?;
+        let bytes = self.readback[slot].bytes();
+        let length = usize::try_from(self.target.bytes()).unwrap_or(usize::MAX).min(bytes.len());
+        take(Finished { index, pixels: &bytes[..length], counts: drawn[slot] })
+    }
+
+    /// The device drawn on.
+    pub fn device(&self) -> &Device {
+        &self.device
+    }
+
+    /// Bytes uploaded by the latest frame.
+    pub const fn uploaded(&self) -> u64 {
+        self.renderer.uploaded()
+    }
+}
+
+fn open_device(settings: &HeadlessSettings) -> Result<Arc<Device>, GpuError> {
+    let instance = Instance::new(settings.validation, &[])?;
+    let physical = PhysicalDevice::choose(&instance, settings.device.as_deref())?;
+    Device::new(instance, physical, settings.cache.as_deref())
+}
+
+fn begin_sea(scene: &Scene, threads: usize, first: f64) -> Result<SeaAhead, HostError> {
+    let workers = Workers::new(threads)?;
+    let sea = workers.run(|| Sea::new(&scene.sea))?;
+    let mut ahead = SeaAhead::new(sea, workers);
+    ahead.begin(first)?;
+    Ok(ahead)
+}
+
+/// A panic of a helper thread goes on in the caller's.
+fn joined<T>(result: thread::Result<T>) -> Result<T, HostError> {
+    result.map_err(|panic| std::panic::resume_unwind(panic))
+}

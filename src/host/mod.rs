@@ -1,0 +1,39 @@
+//! Whoever decides when a frame is drawn, from where and into what.
+
+mod cpu;
+mod headless;
+
+pub use cpu::cpu_time;
+pub use headless::{Finished, Headless, HeadlessSettings};
+
+use crate::draw::{DrawError, SkyError};
+use crate::gpu::GpuError;
+use crate::jobs::JobsError;
+use crate::output::OutputError;
+use crate::sea::SeaError;
+
+/// A frame loop that could not begin or go on.
+#[derive(Debug, thiserror::Error)]
+pub enum HostError {
+    /// Vulkan.
+    #[error(transparent)]
+    Gpu(#[from] GpuError),
+    /// Drawing.
+    #[error(transparent)]
+    Draw(#[from] DrawError),
+    /// The sky's file.
+    #[error(transparent)]
+    Sky(#[from] SkyError),
+    /// The simulation.
+    #[error(transparent)]
+    Sea(#[from] SeaError),
+    /// Worker threads.
+    #[error(transparent)]
+    Jobs(#[from] JobsError),
+    /// A file.
+    #[error(transparent)]
+    Output(#[from] OutputError),
+    /// The thread that writes pictures has gone.
+    #[error("the picture writer stopped before the last frame")]
+    WriterGone,
+}
