@@ -1,6 +1,29 @@
 //! Scene files: TOML in, a checked [`Scene`] out.
+//!
+//! `schema` holds every key with its unit, range and default; `reader` checks a file against it and finds the place of
+//! whatever is wrong; `assemble` checks what keys say together. `docs/scene.md` is [`reference`]'s text.
 use crate::{lod::LodSettings, sea::SeaSettings};
-use std::path::PathBuf;
+use std::fs::File;
+use std::io::Read;
+use std::path::{Path, PathBuf};
+
+mod assemble;
+mod bands;
+mod draft;
+mod error;
+mod extent;
+mod key;
+mod reader;
+mod reference;
+mod schema;
+mod section;
+
+pub use bands::split_bands;
+pub use error::{Place, SceneError};
+pub use reference::reference;
+
+/// Most bytes of a scene file.
+pub const MAX_BYTES: u64 = 1 << 20;
 
 /// A whole scene, every value checked, in SI units and radians.
 #[derive(Clone, Debug, PartialEq)]
@@ -15,6 +38,54 @@ pub struct Scene {
     pub water: WaterSettings,
     /// From where it is seen.
     pub camera: CameraSettings,
+}
+
+impl Scene {
+    /// Reads and checks the scene file at `path`.
+    ///
+    /// # Errors
+    /// A file that cannot be read, is larger than [`MAX_BYTES`], is not UTF-8 or not TOML, or says something that is not
+    /// allowed. The error names the file and, where there is one, line, column, key, value and range.
+    pub fn load(path: impl AsRef<Path>) -> Result<Self, SceneError> {
+        let path = path.as_ref();
+        let failed = |source| SceneError::Read { path: path.to_owned(), source };
+        let file = File::open(path).map_err(failed)?;
+        let mut bytes = Vec::new();
+        file.take(MAX_BYTES + 1).read_to_end(&mut bytes).map_err(failed)?;
+        if bytes.len() as u64 > MAX_BYTES {
+            return Err(SceneError::TooLarge { path: path.to_owned(), limit: MAX_BYTES });
+        }
+        Self::parse_bytes(&bytes, &path.to_string_lossy())
+    }
+
+    /// Checks a scene given as bytes; see [`Scene::parse`].
+    ///
+    /// # Errors
+    /// As [`Scene::load`], except those of reading.
+    pub fn parse_bytes(bytes: &[u8], origin: &str) -> Result<Self, SceneError> {
+        let text = str::from_utf8(bytes).map_err(|error| {
+            let (valid, rest) = bytes.split_at(error.valid_up_to());
+            let place = Place::of(origin, &String::from_utf8_lossy(valid), valid.len());
+            SceneError::NotText { place, byte: rest.first().copied().unwrap_or_default() }
+        })?;
+        Self::parse(text, origin)
+    }
+
+    /// Checks a scene given as text. `origin` names it in errors; relative paths in it start from `origin`'s folder.
+    ///
+    /// # Errors
+    /// As [`Scene::load`], except those of reading.
+    pub fn parse(text: &str, origin: &str) -> Result<Self, SceneError> {
+        assemble::assemble(text, origin)
+    }
+
+    /// The scene that is drawn when none is named: `scenes/open_ocean.toml`, built in.
+    ///
+    /// # Errors
+    /// None as shipped; a test reads it.
+    pub fn flagship() -> Result<Self, SceneError> {
+        Self::parse(include_str!("../../scenes/open_ocean.toml"), "scenes/open_ocean.toml")
+    }
 }
 
 /// Where the light of the sky comes from.

@@ -1,0 +1,222 @@
+//! From the text of a scene file to a checked [`Scene`]: parse, read every section, check what keys say together.
+use super::draft::{Blank, CascadeDraft, LodDraft, SkyDraft, SkyModel};
+use super::error::{Place, SceneError};
+use super::key::Key;
+use super::reader::{Reader, excerpt};
+use super::{CameraSettings, Scene, SkySettings, SkySource, WaterSettings, bands, extent, schema};
+use crate::lod::LodSettings;
+use crate::sea::settings::MAX_CASCADES;
+use crate::sea::{CascadeSettings, FoamSettings, SeaSettings};
+use std::ops::Range;
+use std::path::Path;
+use toml::de::DeTable;
+
+/// Reads the scene in `text`; `file` names it in errors, and relative paths in it start from its folder.
+pub(super) fn assemble(text: &str, file: &str) -> Result<Scene, SceneError> {
+    let document = DeTable::parse(text).map_err(|error| {
+        let span = error.span().unwrap_or(0..0);
+        let near = match excerpt(text, span.clone()) {
+            near if near.is_empty() => "the end of the line".to_owned(),
+            near => near,
+        };
+        SceneError::Syntax {
+            place: Place::of(file, text, span.start),
+            message: error.message().to_owned(),
+            near,
+        }
+    })?;
+    let root = document.get_ref();
+    let mut reader = Reader::new(file, text);
+    reader.check_names("", root, &[], &["sea", "lod", "sky", "water", "camera"]);
+
+    let sea = read_sea(&mut reader, root);
+    let sky = read_sky(&mut reader, root, file);
+    let water: WaterSettings = read_section(&mut reader, root, "water", schema::WATER);
+    let camera = read_camera(&mut reader, root);
+    let lod: LodDraft = read_section(&mut reader, root, "lod", schema::LOD);
+    reader.finish()?;
+
+    let extent = extent::estimate(lod.settings.size);
+    let lod = LodSettings {
+        max_height: lod.settings.max_height.or(Some(extent.height)),
+        reach: lod.reach.unwrap_or(extent.reach),
+        ..lod.settings
+    };
+    Ok(Scene { sea, lod, sky, water, camera })
+}
+
+/// A value with all defaults of `keys`.
+fn defaults<T: Blank>(keys: &[Key<T>]) -> T {
+    let mut value = T::BLANK;
+    for key in keys {
+        key.apply_default(&mut value);
+    }
+    value
+}
+
+fn names<T>(keys: &[Key<T>]) -> Vec<&'static str> {
+    keys.iter().map(|key| key.name).collect()
+}
+
+/// A section of which one table of keys says everything.
+fn read_section<T: Blank>(reader: &mut Reader<'_>, root: &DeTable<'_>, name: &str, keys: &[Key<T>]) -> T {
+    let mut value = defaults(keys);
+    if let Some(table) = reader.table("", root, name) {
+        reader.check_names(name, table, &names(keys), &[]);
+        reader.read(name, table, keys, &mut value);
+    }
+    value
+}
+
+fn read_sea(reader: &mut Reader<'_>, root: &DeTable<'_>) -> SeaSettings {
+    let mut sea = defaults(schema::SEA);
+    let mut shared = defaults(schema::SEA_AND_CASCADE);
+    let mut foam: FoamSettings = defaults(schema::FOAM);
+    let mut cascades = Vec::new();
+    if let Some(table) = reader.table("", root, "sea") {
+        let own = [names(schema::SEA), names(schema::SEA_AND_CASCADE)].concat();
+        reader.check_names("sea", table, &own, &["cascade", "foam"]);
+        reader.read("sea", table, schema::SEA, &mut sea);
+        reader.read("sea", table, schema::SEA_AND_CASCADE, &mut shared);
+        if let Some(foam_table) = reader.table("sea", table, "foam") {
+            reader.check_names("sea.foam", foam_table, &names(schema::FOAM), &[]);
+            reader.read("sea.foam", foam_table, schema::FOAM, &mut foam);
+        }
+        shared.settings.reference_resolution = shared.settings.resolution;
+        for (place_in_file, (cascade, span)) in reader.tables("sea", table, "cascade").into_iter().enumerate()
+        {
+            if place_in_file == MAX_CASCADES {
+                let problem = format!("is one cascade too many: at most {MAX_CASCADES}");
+                reader.contradiction("sea.cascade".to_owned(), span, problem);
+                break;
+            }
+            let draft = read_cascade(reader, cascade, &shared, place_in_file);
+            let band_span = cascade.get("band").map_or(span.clone(), |band| band.span());
+            cascades.push(FoundCascade { draft, span, band_span });
+        }
+    }
+    shared.settings.reference_resolution = shared.settings.resolution;
+    sea.foam = foam;
+    sea.cascades =
+        if cascades.is_empty() { vec![shared.settings] } else { share_wave_numbers(reader, cascades) };
+    sea
+}
+
+fn read_cascade(
+    reader: &mut Reader<'_>,
+    table: &DeTable<'_>,
+    shared: &CascadeDraft,
+    place_in_file: usize,
+) -> CascadeDraft {
+    let mut cascade = shared.clone();
+    // The same numbers in two cascades would make the same waves at two scales.
+    cascade.settings.seed += place_in_file as u64;
+    let own = [names(schema::CASCADE_ONLY), names(schema::SEA_AND_CASCADE)].concat();
+    reader.check_names("sea.cascade", table, &own, &[]);
+    reader.read("sea.cascade", table, schema::CASCADE_ONLY, &mut cascade);
+    reader.read("sea.cascade", table, schema::SEA_AND_CASCADE, &mut cascade);
+    cascade
+}
+
+/// A cascade and where it was found.
+struct FoundCascade {
+    draft: CascadeDraft,
+    span: Range<usize>,
+    band_span: Range<usize>,
+}
+
+/// Orders cascades by descending patch size and gives each its band: its own, or one of those that join.
+fn share_wave_numbers(reader: &mut Reader<'_>, mut cascades: Vec<FoundCascade>) -> Vec<CascadeSettings> {
+    cascades.sort_by(|a, b| b.draft.settings.patch_size.total_cmp(&a.draft.settings.patch_size));
+    let key = || "sea.cascade".to_owned();
+    if cascades.iter().any(|cascade| cascade.draft.band.is_some()) {
+        for cascade in &mut cascades {
+            match cascade.draft.band {
+                Some(band) => cascade.draft.settings.band = band,
+                None => {
+                    let problem =
+                        "has no band although another cascade has one; give all of them one or none";
+                    reader.contradiction(key(), cascade.span.clone(), problem.to_owned());
+                }
+            }
+        }
+        report_overlaps(reader, &cascades);
+    } else {
+        let patches: Vec<_> =
+            cascades.iter().map(|c| (c.draft.settings.patch_size, c.draft.settings.resolution)).collect();
+        for (cascade, band) in cascades.iter_mut().zip(bands::split_bands(&patches)) {
+            cascade.draft.settings.band = band;
+            if band[0] >= band[1] {
+                let problem = format!(
+                    "of {} m has no wave numbers left beside larger patches; make it smaller or give every cascade a band",
+                    cascade.draft.settings.patch_size
+                );
+                reader.contradiction(key(), cascade.span.clone(), problem);
+            }
+        }
+    }
+    cascades.into_iter().map(|cascade| cascade.draft.settings).collect()
+}
+
+fn report_overlaps(reader: &mut Reader<'_>, cascades: &[FoundCascade]) {
+    for (i, earlier) in cascades.iter().enumerate() {
+        for later in &cascades[i + 1..] {
+            if let (Some(a), Some(b)) = (earlier.draft.band, later.draft.band)
+                && a[0] < b[1]
+                && b[0] < a[1]
+            {
+                let problem = format!(
+                    "of the patch of {} m overlaps [{}, {}] of the patch of {} m",
+                    later.draft.settings.patch_size, a[0], a[1], earlier.draft.settings.patch_size
+                );
+                reader.contradiction("sea.cascade.band".to_owned(), later.band_span.clone(), problem);
+            }
+        }
+    }
+}
+
+fn read_sky(reader: &mut Reader<'_>, root: &DeTable<'_>, file: &str) -> SkySettings {
+    let sky: SkyDraft = read_section(reader, root, "sky", schema::SKY);
+    let span_of = |name| {
+        let item = root.get("sky").and_then(|sky| sky.get_ref().get(name));
+        item.map_or(0..0, |item| item.span())
+    };
+    let source = match (sky.model, sky.file) {
+        (SkyModel::Daylight, _) => SkySource::Daylight { turbidity: sky.turbidity },
+        (SkyModel::Cubemap, Some(name)) => {
+            let path = Path::new(file).parent().unwrap_or(Path::new("")).join(&name);
+            if !path.is_file() {
+                let problem = format!("is not there: no file {}", path.display());
+                reader.contradiction("sky.file".to_owned(), span_of("file"), problem);
+            }
+            SkySource::Cubemap { file: path }
+        }
+        (SkyModel::Cubemap, None) => {
+            let problem = "needs sky.file, the image to show".to_owned();
+            reader.contradiction("sky.model".to_owned(), span_of("model"), problem);
+            SkySource::Daylight { turbidity: sky.turbidity }
+        }
+    };
+    SkySettings {
+        source,
+        sun_azimuth: sky.sun_azimuth,
+        sun_elevation: sky.sun_elevation,
+        sun_intensity: sky.sun_intensity,
+        exposure: sky.exposure,
+        visibility: sky.visibility,
+    }
+}
+
+fn read_camera(reader: &mut Reader<'_>, root: &DeTable<'_>) -> CameraSettings {
+    let camera: CameraSettings = read_section(reader, root, "camera", schema::CAMERA);
+    if camera.eye == camera.look
+        && let Some(table) = root.get("camera")
+        && let Some((name, item)) =
+            ["look", "eye"].into_iter().find_map(|name| Some((name, table.get_ref().get(name)?)))
+    {
+        let other = if name == "look" { "eye" } else { "look" };
+        let problem = format!("equals camera.{other}, so there is no direction to look in");
+        reader.contradiction(format!("camera.{name}"), item.span(), problem);
+    }
+    camera
+}

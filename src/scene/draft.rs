@@ -1,0 +1,122 @@
+//! Sections of a scene while they are being read: the settings they end as, and the few keys that need each other.
+use super::{CameraSettings, WaterSettings};
+use crate::lod::{LodSettings, Quality};
+use crate::sea::{CascadeSettings, FoamSettings, NormalKind, SeaSettings, Spectrum};
+
+/// A cascade, `[[sea.cascade]]`; also the keys of `[sea]` that every cascade starts from.
+#[derive(Clone)]
+pub(super) struct CascadeDraft {
+    pub settings: CascadeSettings,
+    pub band: Option<[f64; 2]>,
+}
+
+/// `[lod]`.
+pub(super) struct LodDraft {
+    pub settings: LodSettings,
+    pub reach: Option<f64>,
+}
+
+/// Which kind of sky was asked for.
+#[derive(Clone, Copy, PartialEq)]
+pub(super) enum SkyModel {
+    Daylight,
+    Cubemap,
+}
+
+/// `[sky]`.
+pub(super) struct SkyDraft {
+    pub model: SkyModel,
+    pub turbidity: f64,
+    pub file: Option<String>,
+    pub sun_azimuth: f64,
+    pub sun_elevation: f64,
+    pub sun_intensity: f64,
+    pub exposure: f64,
+    pub visibility: f64,
+}
+
+/// The value of a section before its keys' defaults are written into it. The schema has a default for each key that is
+/// not optional, so nothing of this remains.
+pub(super) trait Blank {
+    const BLANK: Self;
+}
+
+impl Blank for CascadeDraft {
+    const BLANK: Self = Self {
+        settings: CascadeSettings {
+            resolution: 0,
+            patch_size: 0.0,
+            rotation: 0.0,
+            band: [0.0, f64::INFINITY],
+            reference_resolution: 0,
+            spectrum: Spectrum::Phillips,
+            wind_speed: 0.0,
+            wind_direction: 0.0,
+            alignment: 0.0,
+            choppiness: 0.0,
+            small_wave_suppression: 0.0,
+            roughness: 0.0,
+            amplitude: 0.0,
+            fetch: 0.0,
+            peak_enhancement: 0.0,
+            depth: 0.0,
+            seed: 0,
+        },
+        band: None,
+    };
+}
+
+impl Blank for FoamSettings {
+    const BLANK: Self = Self { threshold: 0.0, width: 0.0, fade_time: 0.0 };
+}
+
+impl Blank for SeaSettings {
+    const BLANK: Self = Self {
+        cascades: Vec::new(),
+        gravity: 0.0,
+        repeat_period: 0.0,
+        foam: FoamSettings::BLANK,
+        normals: NormalKind::Exact,
+    };
+}
+
+impl Blank for LodDraft {
+    const BLANK: Self = Self {
+        settings: LodSettings {
+            size: 0.0,
+            quality: Quality::Medium,
+            levels: None,
+            max_height: None,
+            reach: 0.0,
+            skirt_extent: 0.0,
+        },
+        reach: None,
+    };
+}
+
+impl Blank for SkyDraft {
+    const BLANK: Self = Self {
+        model: SkyModel::Daylight,
+        turbidity: 0.0,
+        file: None,
+        sun_azimuth: 0.0,
+        sun_elevation: 0.0,
+        sun_intensity: 0.0,
+        exposure: 0.0,
+        visibility: 0.0,
+    };
+}
+
+impl Blank for WaterSettings {
+    const BLANK: Self = Self {
+        deep_color: [0.0; 3],
+        scatter_color: [0.0; 3],
+        scatter: 0.0,
+        foam_color: [0.0; 3],
+        detail: 0.0,
+    };
+}
+
+impl Blank for CameraSettings {
+    const BLANK: Self = Self { eye: [0.0; 3], look: [0.0; 3], fov_y: 0.0, eye_separation: 0.0 };
+}

@@ -1,0 +1,118 @@
+//! What scene files that are in order turn into.
+use std::f64::consts::{FRAC_PI_2, PI};
+use swell::lod::Quality;
+use swell::scene::{Scene, SkySource, split_bands};
+use swell::sea::{NormalKind, Spectrum};
+
+fn parse(text: &str) -> Scene {
+    Scene::parse(text, "x.toml").unwrap()
+}
+
+#[test]
+fn an_empty_file_is_a_scene_of_one_cascade_with_all_waves() {
+    let scene = parse("");
+    assert_eq!(scene.sea.cascades.len(), 1);
+    let cascade = &scene.sea.cascades[0];
+    assert_eq!(cascade.band, [0.0, f64::INFINITY]);
+    assert_eq!(cascade.resolution, 256);
+    assert_eq!(cascade.reference_resolution, 256);
+    assert_eq!(cascade.spectrum, Spectrum::Jonswap);
+    assert_eq!(scene.sea.repeat_period, 200.0);
+    assert_eq!(scene.sky.source, SkySource::Daylight { turbidity: 3.0 });
+    assert_eq!(scene.lod.quality, Quality::Medium);
+    assert_eq!(scene.lod.levels, None);
+}
+
+#[test]
+fn every_key_reaches_its_own_field() {
+    let scene = parse(
+        "[sea]\nmodel = 'fft'\nresolution = 64\npatch_size = 2\nwind_speed = 3\nwind_direction_deg = 90\n\
+         alignment = 0.4\nchoppiness = 0.5\nsmall_wave_suppression = 0.6\nrepeat_period = 70\nroughness = 0.8\n\
+         amplitude = 9\nseed = 0x10\nspectrum = 'tma'\nfetch = 1_100\npeak_enhancement = 1.2\ndepth = 13\ngravity = 1.4\n\
+         normals = 'sheet'\nfoam = { threshold = 1.5, width = 1.6, fade_time = 17 }\n\
+         [lod]\nsize = 512\nquality = 'ultra'\nlevels = 3\nmax_height = 4\nreach = 5\nskirt_extent = 6\n\
+         [sky]\nturbidity = 2\nsun_azimuth_deg = -180\nsun_elevation_deg = 90\nsun_intensity = 3\nexposure = -4\nvisibility = 500\n\
+         [water]\ndeep_color = [0.1, 0.2, 0.3]\nscatter_color = [0.4, 0.5, 0.6]\nscatter = 7\nfoam_color = [0.8, 0.9, 1]\ndetail = 2.5\n\
+         [camera]\neye = [1, 2, 3]\nlook = [4, 5, 6]\nfov_deg = 90\neye_separation = 0.5\n",
+    );
+    let sea = &scene.sea;
+    let c = &sea.cascades[0];
+    assert_eq!((c.resolution, c.reference_resolution, c.patch_size, c.wind_speed), (64, 64, 2.0, 3.0));
+    assert_eq!((c.wind_direction, c.alignment, c.choppiness), (FRAC_PI_2, 0.4, 0.5));
+    assert_eq!((c.small_wave_suppression, c.roughness, c.amplitude, c.seed), (0.6, 0.8, 9.0, 16));
+    assert_eq!((c.spectrum, c.fetch, c.peak_enhancement, c.depth), (Spectrum::Tma, 1100.0, 1.2, 13.0));
+    assert_eq!((sea.gravity, sea.repeat_period, sea.normals), (1.4, 70.0, NormalKind::Sheet));
+    assert_eq!((sea.foam.threshold, sea.foam.width, sea.foam.fade_time), (1.5, 1.6, 17.0));
+    let lod = &scene.lod;
+    assert_eq!((lod.size, lod.quality, lod.levels), (512.0, Quality::Ultra, Some(3)));
+    assert_eq!((lod.max_height, lod.reach, lod.skirt_extent), (Some(4.0), 5.0, 6.0));
+    let sky = &scene.sky;
+    assert_eq!(sky.source, SkySource::Daylight { turbidity: 2.0 });
+    assert_eq!((sky.sun_azimuth, sky.sun_elevation, sky.sun_intensity), (-PI, FRAC_PI_2, 3.0));
+    assert_eq!((sky.exposure, sky.visibility), (-4.0, 500.0));
+    let water = &scene.water;
+    assert_eq!((water.deep_color, water.scatter_color), ([0.1, 0.2, 0.3], [0.4, 0.5, 0.6]));
+    assert_eq!((water.scatter, water.foam_color, water.detail), (7.0, [0.8, 0.9, 1.0], 2.5));
+    let camera = &scene.camera;
+    assert_eq!((camera.eye, camera.look), ([1.0, 2.0, 3.0], [4.0, 5.0, 6.0]));
+    assert_eq!((camera.fov_y, camera.eye_separation), (FRAC_PI_2, 0.5));
+}
+
+#[test]
+fn cascades_override_the_sea_and_come_largest_first() {
+    let scene = parse(
+        "[sea]\nwind_speed = 7\nresolution = 128\nseed = 40\n\
+         [[sea.cascade]]\npatch_size = 10\nrotation_deg = 90\nresolution = 32\n\
+         [[sea.cascade]]\npatch_size = 300\nwind_speed = 8\n\
+         [[sea.cascade]]\npatch_size = 50\nseed = 5\n",
+    );
+    let cascades = &scene.sea.cascades;
+    let of = |f: fn(&swell::sea::CascadeSettings) -> f64| cascades.iter().map(f).collect::<Vec<_>>();
+    assert_eq!(of(|c| c.patch_size), [300.0, 50.0, 10.0]);
+    assert_eq!(of(|c| c.wind_speed), [8.0, 7.0, 7.0]);
+    assert_eq!(of(|c| c.rotation), [0.0, 0.0, FRAC_PI_2]);
+    assert_eq!(of(|c| c.resolution as f64), [128.0, 128.0, 32.0]);
+    assert_eq!(of(|c| c.reference_resolution as f64), [128.0; 3]);
+    assert_eq!(of(|c| c.seed as f64), [41.0, 5.0, 40.0]);
+    let bands: Vec<_> = cascades.iter().map(|c| c.band).collect();
+    assert_eq!(bands, split_bands(&[(300.0, 128), (50.0, 128), (10.0, 32)]));
+}
+
+#[test]
+fn bands_given_are_kept() {
+    let scene =
+        parse("[[sea.cascade]]\nband = [0, 0.5]\n[[sea.cascade]]\npatch_size = 20\nband = [0.5, inf]\n");
+    assert_eq!(scene.sea.cascades[0].band, [0.0, 0.5]);
+    assert_eq!(scene.sea.cascades[1].band, [0.5, f64::INFINITY]);
+}
+
+#[test]
+fn a_cubemap_is_found_beside_the_scene() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("sky.png"), b"").unwrap();
+    let path = folder.path().join("scene.toml");
+    std::fs::write(&path, "[sky]\nmodel = 'cubemap'\nfile = 'sky.png'\n").unwrap();
+    let scene = Scene::load(&path).unwrap();
+    assert_eq!(scene.sky.source, SkySource::Cubemap { file: folder.path().join("sky.png") });
+}
+
+#[test]
+fn the_scenes_that_come_along_are_in_order() {
+    let scenes = concat!(env!("CARGO_MANIFEST_DIR"), "/scenes/");
+    for name in ["open_ocean.toml", "calm.toml", "storm.toml"] {
+        let scene = Scene::load(format!("{scenes}{name}")).unwrap();
+        let finest = scene.lod.size / 2f64.powi(scene.lod.levels.unwrap() as i32);
+        assert_eq!(finest, 16.0, "{name}");
+        // Bands join: the sum of the cascades is the whole spectrum.
+        assert_eq!(scene.sea.cascades.len(), 3);
+        assert_eq!(scene.sea.cascades[0].band[0], 0.0);
+        assert_eq!(scene.sea.cascades[2].band[1], f64::INFINITY);
+        for pair in scene.sea.cascades.windows(2) {
+            assert_eq!(pair[0].band[1], pair[1].band[0], "{name}");
+        }
+    }
+    let flagship = Scene::load(format!("{scenes}open_ocean.toml")).unwrap();
+    assert_eq!(Scene::flagship().unwrap(), flagship);
+    assert_eq!(flagship.sea.cascades[0].wind_speed, 14.0);
+    assert_eq!(flagship.camera.eye[1], 4.0);
+}
