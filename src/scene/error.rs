@@ -15,7 +15,8 @@ pub struct Place {
 impl Place {
     /// The place of the byte at `offset` of `text`; offsets past the end or inside a character are moved back.
     pub(super) fn of(file: &str, text: &str, offset: usize) -> Box<Self> {
-        let before = &text[..text.floor_char_boundary(offset)];
+        let end = (0..=offset.min(text.len())).rev().find(|&end| text.is_char_boundary(end)).unwrap_or(0);
+        let before = &text[..end];
         let line_start = before.rfind('\n').map_or(0, |newline| newline + 1);
         Box::new(Self {
             file: file.to_owned(),
