@@ -17,9 +17,12 @@
 //! `sea`, `lod` and `scene` know nothing of Vulkan or windows.
 #![warn(missing_docs)]
 
+pub mod commands;
 pub mod draw;
 pub mod gpu;
+pub mod host;
 pub mod jobs;
 pub mod lod;
+pub mod output;
 pub mod scene;
 pub mod sea;

@@ -67,11 +67,19 @@ impl Ocean {
             all.extend(lod::grid::indices(cells, pattern));
             patterns.push(start..all.len() as u32);
         }
-        let indices =
-            upload_buffer(device, "patterns", bytemuck::cast_slice(&all), vk::BufferUsageFlags::INDEX_BUFFER)?;
+        let indices = upload_buffer(
+            device,
+            "patterns",
+            bytemuck::cast_slice(&all),
+            vk::BufferUsageFlags::INDEX_BUFFER,
+        )?;
         let (skirt, skirt_indices) = lod::skirt(settings.size, settings.skirt_extent);
-        let skirt_vertices =
-            upload_buffer(device, "skirt", bytemuck::cast_slice(&skirt), vk::BufferUsageFlags::VERTEX_BUFFER)?;
+        let skirt_vertices = upload_buffer(
+            device,
+            "skirt",
+            bytemuck::cast_slice(&skirt),
+            vk::BufferUsageFlags::VERTEX_BUFFER,
+        )?;
         let skirt_indices = upload_buffer(
             device,
             "skirt indices",
@@ -90,7 +98,10 @@ impl Ocean {
             let patch = info("patches", shaders::OCEAN_VERTEX_MAIN[cascades - 1], PATCH_INPUT);
             let skirt = info("skirt", shaders::SKIRT_VERTEX_MAIN, SKIRT_INPUT);
             let layout = bindings.pipeline_layout;
-            Ok([Pipeline::new(device, target, layout, &patch)?, Pipeline::new(device, target, layout, &skirt)?])
+            Ok([
+                Pipeline::new(device, target, layout, &patch)?,
+                Pipeline::new(device, target, layout, &skirt)?,
+            ])
         };
         let layers = layers.iter().map(make).collect::<Result<_, GpuError>>()?;
         Ok(Self { layers, vertices, indices, patterns, skirt_vertices, skirt_indices })
@@ -141,11 +152,20 @@ impl Ocean {
     }
 }
 
-const fn field(location: u32, binding: u32, format: vk::Format, offset: u32) -> vk::VertexInputAttributeDescription {
+const fn field(
+    location: u32,
+    binding: u32,
+    format: vk::Format,
+    offset: u32,
+) -> vk::VertexInputAttributeDescription {
     vk::VertexInputAttributeDescription { location, binding, format, offset }
 }
 
-const fn buffer(binding: u32, stride: u32, input_rate: vk::VertexInputRate) -> vk::VertexInputBindingDescription {
+const fn buffer(
+    binding: u32,
+    stride: u32,
+    input_rate: vk::VertexInputRate,
+) -> vk::VertexInputBindingDescription {
     vk::VertexInputBindingDescription { binding, stride, input_rate }
 }
 

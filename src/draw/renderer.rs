@@ -2,13 +2,13 @@
 
 use super::camera::{self, Eye};
 use super::debug_view::Look;
+use super::foam_pattern;
 use super::ocean::{DrawCounts, Ocean};
 use super::sea_textures::SeaTextures;
 use super::shaders::BINDINGS;
 use super::sky::Sky;
 use super::sky_map::{self, SkyMap};
 use super::uniforms::{Frame, Spacing};
-use super::foam_pattern;
 use crate::gpu::{
     Bindings, Device, FRAMES_IN_FLIGHT, GpuError, Image, ImageInfo, Recorder, Resource, Sampler, Target,
     UploadRing, upload_image,
@@ -65,11 +65,11 @@ impl Renderer {
         let tree = Quadtree::new(&scene.lod)?;
         let cells = tree.preset().cells;
         let spacing = Spacing {
-            per_metre: tree.spacing_per_metre(),
+            per_metre: 1.0 / (f64::from(cells) * (tree.preset().lod_scale - 0.5).max(1.0)),
             finest: tree.finest_spacing(),
             coarsest: tree.coarsest_spacing(),
         };
-        let still = Frame::still(scene, sky_map, scene.sea.rms_height(), cells, spacing);
+        let still = Frame::still(scene, sky_map, scene.sea.expected_rms_height(), cells, spacing);
         let limits = &device.physical.limits;
         let uniform_align = limits.min_uniform_buffer_offset_alignment.max(16);
         let share = SeaTextures::bytes(&scene.sea)

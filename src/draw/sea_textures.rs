@@ -64,8 +64,10 @@ impl SeaTextures {
         for (i, cascade) in maps.cascades.iter().enumerate() {
             let displacement = ring.push(bytemuck::cast_slice(&cascade.displacement), DISPLACEMENT)?;
             let gradient = ring.push(bytemuck::cast_slice(&cascade.gradient), GRADIENT)?;
-            let both =
-                [(&self.displacement[i], displacement, DISPLACEMENT), (&self.gradient[i], gradient, GRADIENT)];
+            let both = [
+                (&self.displacement[i], displacement, DISPLACEMENT),
+                (&self.gradient[i], gradient, GRADIENT),
+            ];
             for (image, offset, texel) in both {
                 self.regions.clear();
                 image.copy_regions(offset, texel, &mut self.regions);

@@ -58,8 +58,7 @@ impl SkyMap {
     pub fn new(settings: &SkySettings) -> Result<Self, SkyError> {
         let (azimuth, elevation) = (settings.sun_azimuth, settings.sun_elevation);
         let level = elevation.cos();
-        let sun =
-            glam::DVec3::new(azimuth.cos() * level, elevation.sin(), -azimuth.sin() * level).as_vec3();
+        let sun = glam::DVec3::new(azimuth.cos() * level, elevation.sin(), -azimuth.sin() * level).as_vec3();
         // The sun shines through the same air whether or not the sky behind it comes from a file.
         let turbidity = match settings.source {
             SkySource::Daylight { turbidity } => turbidity,
@@ -232,7 +231,7 @@ impl Picture {
         #[expect(clippy::cast_possible_truncation, reason = "a pixel's index")]
         let (x, y) = (x.floor() as i64, y.floor() as i64);
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "wrapped and clamped")]
-        let at = |dx, dy| {
+        let at = |dx: i64, dy: i64| {
             let column = (x + dx).rem_euclid(i64::from(width)) as u32;
             let row = (y + dy).clamp(0, i64::from(height) - 1) as u32;
             let texel = Vec3::from_array(self.image.get_pixel(column, row).0);

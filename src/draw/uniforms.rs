@@ -4,7 +4,7 @@ use super::camera::{self, Eye};
 use super::shaders::UNIFORM_SIZE;
 use super::sky_map::{self, SkyMap};
 use crate::scene::Scene;
-use crate::sea::{MAX_CASCADES, SeaMaps};
+use crate::sea::{SeaMaps, settings::MAX_CASCADES};
 use bytemuck::{Pod, Zeroable};
 use glam::{DVec2, DVec3, Mat4, Vec3, Vec4};
 
