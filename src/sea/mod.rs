@@ -1,3 +1,122 @@
-//! The spectral sea.
+//! The spectral sea: a patch of ocean from wind, as maps of displacement, normals and foam.
+//!
+//! # Stages
+//! [`spectrum`] (once) -> every step [`evolve`] -> [`fft`] -> [`displacement`] -> [`gradient`] -> [`mips`], with
+//! [`foam`] remembering. Each stage is a plain function over slices; [`stages::STAGES`] is their graph; the scalar
+//! truth of every one is in [`reference`] under the same name. See `docs/sea.md`.
+//!
+//! # Guarantees
+//! [`Sea::step`] is a pure function of the settings and the time: the same bytes on every run, with any number of
+//! threads, from whatever time the sea was stepped before.
+pub mod ahead;
+mod cascade;
+pub mod clock;
+pub mod dispersion;
+pub mod displacement;
+pub mod error;
+pub mod evolve;
+pub mod fft;
+pub mod foam;
+pub mod gradient;
+pub mod maps;
+pub mod mips;
+pub mod philox;
+pub mod query;
+pub mod reference;
 pub mod settings;
-pub use settings::{CascadeSettings, FoamSettings, NormalKind, SeaSettings, Spectrum};
+pub mod spectrum;
+pub mod stages;
+
+pub use ahead::SeaAhead;
+pub use error::SeaError;
+pub use maps::{CascadeMaps, SeaMaps};
+pub use mips::{mip_levels, mip_offset};
+pub use query::Surface;
+pub use settings::{CascadeSettings, FoamSettings, NormalKind, SeaSettings, Spectrum, split_bands};
+pub use spectrum::expected_variance;
+
+use cascade::Cascade;
+use clock::Phase;
+use foam::Fading;
+use rayon::prelude::*;
+use stages::Times;
+
+/// A sea ready to be stepped: spectra, working space, and the foam's memory.
+#[derive(Debug)]
+pub struct Sea {
+    settings: SeaSettings,
+    cascades: Vec<Cascade>,
+    fading: Option<Fading>,
+    times: Times,
+}
+
+impl Sea {
+    /// Checks the settings and makes the spectra, on the threads of the pool it is called in.
+    ///
+    /// # Errors
+    /// [`SeaError::Sea`] and [`SeaError::Cascade`] name the parameter that is out of range.
+    pub fn new(settings: &SeaSettings) -> Result<Self, SeaError> {
+        settings.validate()?;
+        let cascades = settings.cascades.iter().zip(0..).map(|(cascade, index)| {
+            Cascade::new(cascade, settings.gravity, settings.repeat_period, settings.normals, index)
+        });
+        Ok(Self {
+            cascades: cascades.collect::<Result<_, _>>()?,
+            fading: Fading::new(&settings.foam, settings.repeat_period),
+            settings: settings.clone(),
+            times: Times::default(),
+        })
+    }
+
+    /// What the sea was made from.
+    pub fn settings(&self) -> &SeaSettings {
+        &self.settings
+    }
+
+    /// Flat maps of the right sizes, to be filled by [`Sea::step`].
+    pub fn new_maps(&self) -> SeaMaps {
+        SeaMaps {
+            time: 0.0,
+            foam: self.settings.foam,
+            cascades: self.settings.cascades.iter().map(CascadeMaps::new).collect(),
+        }
+    }
+
+    /// Fills `maps` with the sea at `time` (seconds, any sign), on the threads of the pool it is called in.
+    ///
+    /// Stepping forward in small steps is cheapest; a first step, a step back, or one beyond the foam's memory rebuilds
+    /// that memory, which costs about 20 steps for every second of the foam's fade time.
+    ///
+    /// # Errors
+    /// [`SeaError::Time`] unless `time` is finite; [`SeaError::Maps`] for maps of another sea.
+    pub fn step(&mut self, time: f64, maps: &mut SeaMaps) -> Result<(), SeaError> {
+        if !time.is_finite() {
+            return Err(SeaError::Time { time });
+        }
+        let fits = maps.cascades.len() == self.cascades.len()
+            && self.cascades.iter().zip(&maps.cascades).all(|(cascade, maps)| cascade.fits(maps));
+        if !fits {
+            return Err(SeaError::Maps);
+        }
+        let phase = Phase::at(time, self.settings.repeat_period);
+        let (fading, times) = (self.fading.as_ref(), &self.times);
+        self.cascades
+            .par_iter_mut()
+            .zip(maps.cascades.par_iter_mut())
+            .for_each(|(cascade, maps)| cascade.step(phase, fading, maps, times));
+        maps.time = time;
+        Ok(())
+    }
+
+    /// Time spent in each of [`stages::STAGES`], summed over cascades, since the last call.
+    pub fn take_times(&self) -> [std::time::Duration; stages::STAGES.len()] {
+        self.times.take()
+    }
+
+    /// Forgets what a panicking job may have left half written.
+    pub(crate) fn forget(&mut self) {
+        for cascade in &mut self.cascades {
+            cascade.forget();
+        }
+    }
+}

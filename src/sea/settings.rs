@@ -1,4 +1,6 @@
 //! What a sea is made from: checked, resolved parameters, in SI units and radians.
+use super::{error::SeaError, spectrum::expected_variance};
+use std::f64::consts::{PI, TAU};
 
 /// Which statistical description of a wind sea the amplitudes follow.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -87,3 +89,153 @@ pub struct SeaSettings {
 
 /// The renderer binds one pair of maps for each, so their number is fixed.
 pub const MAX_CASCADES: usize = 4;
+
+/// Standard deviations by which [`SeaSettings::max_height`] and [`SeaSettings::reach`] exceed the still sea. A Gaussian
+/// field passes 5 once in two million independent points; a frame has fewer.
+const BOUND: f64 = 5.0;
+
+/// Waves of the smaller patch that fit along its side at the boundary of its band: fewer would show its edges.
+const WAVES_PER_PATCH: f64 = 6.0;
+
+impl Default for FoamSettings {
+    fn default() -> Self {
+        Self { threshold: 0.45, width: 0.6, fade_time: 4.0 }
+    }
+}
+
+impl Default for CascadeSettings {
+    /// A fresh breeze over 256 m of deep water.
+    fn default() -> Self {
+        Self {
+            resolution: 256,
+            patch_size: 256.0,
+            rotation: 0.0,
+            band: [0.0, f64::INFINITY],
+            reference_resolution: 256,
+            spectrum: Spectrum::Jonswap,
+            wind_speed: 10.0,
+            wind_direction: 0.0,
+            alignment: 0.6,
+            choppiness: 0.9,
+            small_wave_suppression: 0.1,
+            roughness: 0.1,
+            amplitude: 1.0,
+            fetch: 100_000.0,
+            peak_enhancement: 3.3,
+            depth: 20.0,
+            seed: 1,
+        }
+    }
+}
+
+impl Default for SeaSettings {
+    /// One default cascade.
+    fn default() -> Self {
+        Self {
+            cascades: vec![CascadeSettings::default()],
+            gravity: 9.81,
+            repeat_period: 200.0,
+            foam: FoamSettings::default(),
+            normals: NormalKind::Exact,
+        }
+    }
+}
+
+impl SeaSettings {
+    /// Checks every parameter.
+    ///
+    /// # Errors
+    /// [`SeaError::Sea`] or [`SeaError::Cascade`] for the first that is out of range.
+    pub fn validate(&self) -> Result<(), SeaError> {
+        let sea = |key, value: f64, good: bool, allowed| {
+            if good { Ok(()) } else { Err(SeaError::Sea { key, value: value.to_string(), allowed }) }
+        };
+        let count = self.cascades.len();
+        sea("number of cascades", count as f64, (1..=MAX_CASCADES).contains(&count), "1..=4")?;
+        sea("gravity", self.gravity, within(self.gravity, 0.01, 1000.0), "0.01..=1000 m/s^2")?;
+        sea("repeat_period", self.repeat_period, within(self.repeat_period, 1.0, 86_400.0), "1..=86400 s")?;
+        let FoamSettings { threshold, width, fade_time } = self.foam;
+        sea("foam threshold", threshold, threshold.is_finite(), "a finite number")?;
+        sea("foam width", width, within(width, 0.0, f64::MAX), "0 or more")?;
+        sea("foam fade_time", fade_time, within(fade_time, 0.0, 600.0), "0..=600 s")?;
+        self.cascades.iter().enumerate().try_for_each(|(index, cascade)| cascade.validate(index))
+    }
+
+    /// Standard deviation of the summed height, metres, from the sums of the spectra.
+    pub fn expected_rms_height(&self) -> f64 {
+        let variance = |cascade| expected_variance(cascade, self.gravity);
+        self.cascades.iter().map(variance).sum::<f64>().sqrt()
+    }
+
+    /// A height, metres, that waves rise to or sink by only once in millions of points: five standard deviations.
+    pub fn max_height(&self) -> f64 {
+        BOUND * self.expected_rms_height()
+    }
+
+    /// The same for the length of the horizontal displacement, metres.
+    pub fn reach(&self) -> f64 {
+        let variance = |cascade: &CascadeSettings| {
+            cascade.choppiness * cascade.choppiness * expected_variance(cascade, self.gravity)
+        };
+        BOUND * self.cascades.iter().map(variance).sum::<f64>().sqrt()
+    }
+}
+
+impl CascadeSettings {
+    fn validate(&self, cascade: usize) -> Result<(), SeaError> {
+        let error = |key, value: String, allowed| Err(SeaError::Cascade { cascade, key, value, allowed });
+        if !self.resolution.is_power_of_two() || !(16..=512).contains(&self.resolution) {
+            return error("resolution", self.resolution.to_string(), "a power of two in 16..=512");
+        }
+        if self.reference_resolution == 0 {
+            return error("reference_resolution", "0".to_owned(), "1 or more");
+        }
+        let [low, high] = self.band;
+        if !(low >= 0.0 && low < high) {
+            return error("band", format!("[{low}, {high}]"), "two ascending wave numbers, 0 rad/m or more");
+        }
+        let numbers = [
+            ("patch_size", self.patch_size, 0.1, 1e6, "0.1..=1e6 m"),
+            ("rotation", self.rotation, f64::MIN, f64::MAX, "a finite angle"),
+            ("wind_speed", self.wind_speed, 0.0, 100.0, "0..=100 m/s"),
+            ("wind_direction", self.wind_direction, f64::MIN, f64::MAX, "a finite angle"),
+            ("alignment", self.alignment, 0.0, 1.0, "0..=1"),
+            ("choppiness", self.choppiness, 0.0, 10.0, "0..=10"),
+            ("small_wave_suppression", self.small_wave_suppression, 0.0, 1.0, "0..=1"),
+            ("roughness", self.roughness, 0.0, 1.0, "0..=1"),
+            ("amplitude", self.amplitude, 0.0, 1e6, "0..=1e6"),
+            ("fetch", self.fetch, 1.0, 1e8, "1..=1e8 m"),
+            ("peak_enhancement", self.peak_enhancement, 1.0, 10.0, "1..=10"),
+            ("depth", self.depth, 0.01, 1e5, "0.01..=1e5 m"),
+        ];
+        for (key, value, low, high, allowed) in numbers {
+            if !within(value, low, high) {
+                return error(key, value.to_string(), allowed);
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Disjoint bands of wave numbers, rad/m, for cascades of `(patch size in metres, resolution)` in descending order of
+/// patch size, which together cover everything from 0 up.
+///
+/// A boundary lies where six waves fit along the smaller patch, or at half the larger cascade's Nyquist number where
+/// that comes first: beyond it the larger one's gradients, central differences, lose more than a third of the slope.
+pub fn split_bands(patches: &[(f64, usize)]) -> Vec<[f64; 2]> {
+    let mut low = 0.0;
+    let mut bands = Vec::with_capacity(patches.len());
+    for (index, &(size, resolution)) in patches.iter().enumerate() {
+        let high = patches.get(index + 1).map_or(f64::INFINITY, |&(smaller, _)| {
+            let half_nyquist = 0.5 * PI * resolution as f64 / size;
+            (WAVES_PER_PATCH * TAU / smaller).min(half_nyquist).max(low)
+        });
+        bands.push([low, high]);
+        low = high;
+    }
+    bands
+}
+
+fn within(value: f64, low: f64, high: f64) -> bool {
+    value.is_finite() && (low..=high).contains(&value)
+}

@@ -1,0 +1,174 @@
+//! Simulating the next frame while this one is drawn: two buffers and a driver that never leaves the pool.
+use super::{Sea, SeaError, SeaMaps};
+use crate::jobs::Workers;
+use std::{
+    any::Any,
+    panic::{AssertUnwindSafe, catch_unwind},
+    sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError},
+};
+
+/// A sea stepped one frame ahead of whoever draws it.
+///
+/// One worker of the pool drives the steps and takes part in them; it sleeps in between. Buffers change hands by move,
+/// so that a frame allocates nothing. The pool is given away for that reason: other work would wait for ever on a pool
+/// of one thread.
+#[derive(Debug)]
+pub struct SeaAhead {
+    shared: Arc<Shared>,
+    /// The maps handed out last, free again at the next call.
+    front: Option<SeaMaps>,
+    /// Maps that no step uses: the second buffer, until the first step begins.
+    spare: Option<SeaMaps>,
+    pending: bool,
+    _workers: Workers,
+}
+
+#[derive(Debug)]
+struct Shared {
+    state: Mutex<State>,
+    changed: Condvar,
+}
+
+#[derive(Debug)]
+enum State {
+    /// Nothing to do.
+    Idle,
+    /// A step to make.
+    Asked(f64, SeaMaps),
+    /// The driver is at it.
+    Busy,
+    /// Done.
+    Finished(Result<(), SeaError>, SeaMaps),
+    /// The owner or the driver has gone.
+    Closed,
+}
+
+impl Shared {
+    /// A panic while the lock was held leaves a state that is whole: every change is one assignment.
+    fn lock(&self) -> MutexGuard<'_, State> {
+        self.state.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    fn set(&self, state: State) {
+        *self.lock() = state;
+        self.changed.notify_all();
+    }
+
+    /// Waits until `pick` takes something out of the state.
+    fn wait<R>(&self, pick: impl Fn(&mut State) -> Option<R>) -> R {
+        let mut state = self.lock();
+        loop {
+            if let Some(picked) = pick(&mut state) {
+                return picked;
+            }
+            state = self.changed.wait(state).unwrap_or_else(PoisonError::into_inner);
+        }
+    }
+}
+
+impl SeaAhead {
+    /// Puts `sea` to work on `workers`.
+    pub fn new(sea: Sea, workers: Workers) -> Self {
+        let shared = Arc::new(Shared { state: Mutex::new(State::Idle), changed: Condvar::new() });
+        let (front, spare) = (Some(sea.new_maps()), Some(sea.new_maps()));
+        let driver = Arc::clone(&shared);
+        workers.spawn(move || drive(sea, &driver));
+        Self { shared, front, spare, pending: false, _workers: workers }
+    }
+
+    /// Begins the step to `time`, unless one is already on its way.
+    ///
+    /// # Errors
+    /// [`SeaError::Gone`] when the driver has ended.
+    pub fn begin(&mut self, time: f64) -> Result<(), SeaError> {
+        if self.pending {
+            return Ok(());
+        }
+        let maps = self.spare.take().or_else(|| self.front.take()).ok_or(SeaError::Gone)?;
+        let mut state = self.shared.lock();
+        if matches!(*state, State::Closed) {
+            self.spare = Some(maps);
+            return Err(SeaError::Gone);
+        }
+        *state = State::Asked(time, maps);
+        drop(state);
+        self.shared.changed.notify_all();
+        self.pending = true;
+        Ok(())
+    }
+
+    /// Waits for the step that is on its way, begins the one to `following`, and returns the finished maps, which stay
+    /// valid until the next call.
+    ///
+    /// # Errors
+    /// [`SeaError::NotBegun`] when no step is on its way; those of [`Sea::step`]; [`SeaError::Panicked`] when a job
+    /// panicked. After an error the next `begin` starts afresh.
+    pub fn next(&mut self, following: Option<f64>) -> Result<&SeaMaps, SeaError> {
+        if !self.pending {
+            return Err(SeaError::NotBegun);
+        }
+        let finished = self.shared.wait(|state| match std::mem::replace(state, State::Idle) {
+            State::Finished(result, maps) => Some(Ok((result, maps))),
+            State::Closed => {
+                *state = State::Closed;
+                Some(Err(SeaError::Gone))
+            }
+            other => {
+                *state = other;
+                None
+            }
+        });
+        self.pending = false;
+        let (result, maps) = finished?;
+        if let Err(error) = result {
+            self.spare = Some(maps);
+            return Err(error);
+        }
+        self.spare = self.front.replace(maps);
+        if let Some(time) = following {
+            self.begin(time)?;
+        }
+        self.front.as_ref().ok_or(SeaError::Gone)
+    }
+}
+
+impl Drop for SeaAhead {
+    fn drop(&mut self) {
+        self.shared.set(State::Closed);
+    }
+}
+
+/// Makes the steps asked for, until the owner has gone.
+fn drive(mut sea: Sea, shared: &Shared) {
+    loop {
+        let asked = shared.wait(|state| match std::mem::replace(state, State::Busy) {
+            State::Asked(time, maps) => Some(Some((time, maps))),
+            State::Closed => {
+                *state = State::Closed;
+                Some(None)
+            }
+            other => {
+                *state = other;
+                None
+            }
+        });
+        let Some((time, mut maps)) = asked else { return };
+        let result = catch_unwind(AssertUnwindSafe(|| sea.step(time, &mut maps))).unwrap_or_else(|panic| {
+            sea.forget();
+            Err(SeaError::Panicked { time, message: words(&*panic) })
+        });
+        let mut state = shared.lock();
+        if matches!(*state, State::Closed) {
+            return;
+        }
+        *state = State::Finished(result, maps);
+        drop(state);
+        shared.changed.notify_all();
+    }
+}
+
+/// What a panic said.
+fn words(panic: &(dyn Any + Send)) -> String {
+    let text = panic.downcast_ref::<&str>().map(|text| (*text).to_owned());
+    text.or_else(|| panic.downcast_ref::<String>().cloned()).unwrap_or_else(|| "no message".to_owned())
+}
