@@ -4,10 +4,11 @@ use glam::Vec2;
 
 /// World (x, z) at rest, metres relative to the selection's origin, of vertex (i, j) of a patch of `cells` x `cells`.
 ///
-/// Vertices of odd number slide towards the coarser grid, by the instance's weights: number k to the nearest multiple
-/// of 4, that is 1 to 0 and 3 to 4. (Fully slid, each cell's fan is then two triangles, divided along the diagonal
-/// that the coarser grid's fans have there.) On a stitched edge every second vertex is left out of the index pattern;
-/// the others are vertices of the coarser patch and slide by its rule: numbers are halved first. Corners never move.
+/// Vertices of odd number k slide towards the coarser grid by the instance's weights, to the neighbour that is 2 more
+/// than a multiple of 4: 1 and 3 to 2, 5 and 7 to 6. Fully slid, each cell's fan is two triangles divided along the
+/// diagonal that the coarser grid's fans have there, and none of them leans on a border vertex, which may itself have
+/// slid. On a stitched edge every second vertex is left out of the index pattern; the others are vertices of the
+/// coarser patch and slide by its rule: numbers are halved first. Corners never move.
 ///
 /// `i`, `j` are in 0..=cells, `cells` a multiple of 8. On a stitched edge odd numbers are rounded down to even ones.
 pub fn vertex_position(instance: &Instance, pattern: Pattern, cells: u32, i: u32, j: u32) -> Vec2 {
@@ -35,8 +36,8 @@ pub fn vertex_position(instance: &Instance, pattern: Pattern, cells: u32, i: u32
 fn slide(number: u32, step: u32, weight: f32) -> f32 {
     let number = number / step;
     let towards = match number & 3 {
-        1 => -weight,
-        3 => weight,
+        1 => weight,
+        3 => -weight,
         _ => 0.0,
     };
     (number as f32 + towards) * step as f32
