@@ -91,7 +91,7 @@ fn neighbours_share_their_edge_vertices_bit_for_bit() {
     let (mut equal, mut stitched) = (0, 0);
     for mut tree in trees() {
         let edges = EdgeVertices::new(tree.preset().cells);
-        for _ in 0..500 {
+        for _ in 0..250 {
             tree.select(random.viewer(), &[Frustum::everywhere()]);
             let counts = check_seams(&tree, &edges, |a, b| a == b);
             equal += counts.0;
@@ -128,7 +128,7 @@ fn the_mesh_is_a_sheet_without_holes() {
         let mut tree = tree(2048.0, quality, None);
         let cells = tree.preset().cells;
         let patterns: Vec<Vec<u16>> = Pattern::all().map(|pattern| grid::indices(cells, pattern)).collect();
-        for _ in 0..3 {
+        for _ in 0..2 {
             let selection = tree.select(random.viewer(), &[Frustum::everywhere()]);
             let mut sides: HashMap<[[u32; 2]; 2], i32> = HashMap::new();
             let mut area = 0.0;

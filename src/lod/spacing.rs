@@ -21,7 +21,7 @@ pub fn vertex_spacing(distance: f64, preset: Preset, finest: f64, coarsest: f64)
 ///
 /// A point of an undivided node of side s lies within s / sqrt(2) of its centre, hence s <= distance / (tau -
 /// 1/sqrt(2)). A node whose vertices have slid by m has cells up to 1 + m times as long; its parent's q then grows with
-/// the distance so that the product stays below 1.06 times the same. At tau = 1 three times [`vertex_spacing`]: few
+/// the distance so that the product stays below 1.06 times the same. At tau = 1 it is 3.6 times [`vertex_spacing`]: few
 /// nodes are seen corner on.
 pub fn vertex_spacing_bound(distance: f64, preset: Preset, finest: f64, coarsest: f64) -> f64 {
     let nearest = preset.lod_scale - FRAC_1_SQRT_2;
