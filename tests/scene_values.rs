@@ -1,5 +1,5 @@
 //! What scene files that are in order turn into.
-#![allow(clippy::unwrap_used)]
+#![allow(clippy::unwrap_used, reason = "a test may panic")]
 use std::f64::consts::{FRAC_PI_2, PI};
 use swell::lod::Quality;
 use swell::scene::{Scene, SkySource, split_bands};

@@ -1,0 +1,121 @@
+//! Files that appear under their final names only when whole.
+//!
+//! A file is written beside its final place as `.NAME.PROCESS.part` and renamed when complete: on one file system a
+//! rename happens at once or not at all, so neither a kill nor a full disk leaves half a file under a final name.
+use super::OutputError;
+use std::ffi::OsString;
+use std::fs::{self, File};
+use std::io::{self, BufWriter, Seek, Write};
+use std::path::{Path, PathBuf};
+
+const SUFFIX: &str = ".part";
+
+/// Anything a file format may want to write to.
+pub trait Sink: Write + Seek {}
+impl<T: Write + Seek> Sink for T {}
+
+/// Writes the file at `path` through `write`; on an error nothing of it is left.
+///
+/// # Errors
+/// [`OutputError::Write`] when the folder cannot be written to, the disk is full or `write` fails.
+pub fn write_whole(
+    path: &Path,
+    write: impl FnOnce(&mut dyn Sink) -> io::Result<()>,
+) -> Result<(), OutputError> {
+    let temporary = temporary_name(path);
+    let written = File::create(&temporary).and_then(|file| {
+        let mut sink = BufWriter::new(file);
+        write(&mut sink)?;
+        sink.flush()?;
+        drop(sink);
+        fs::rename(&temporary, path)
+    });
+    written.map_err(|source| {
+        // Removing may fail as well; the error worth telling is the first.
+        let _ = fs::remove_file(&temporary);
+        OutputError::Write { path: path.to_owned(), source }
+    })
+}
+
+/// Removes what interrupted runs left of the files called `is_ours` in `folder`.
+///
+/// Other processes may be writing other files of the same folder, so only names that are this run's own to write are
+/// touched.
+///
+/// # Errors
+/// [`OutputError::Read`] when the folder cannot be listed, [`OutputError::Remove`] when a leftover cannot be removed.
+pub fn remove_leftovers(folder: &Path, is_ours: impl Fn(&str) -> bool) -> Result<(), OutputError> {
+    let unreadable = |source| OutputError::Read { path: folder.to_owned(), source };
+    for entry in fs::read_dir(folder).map_err(unreadable)? {
+        let entry = entry.map_err(unreadable)?;
+        let name = entry.file_name();
+        if name.to_str().and_then(final_name).is_some_and(&is_ours) {
+            let path = entry.path();
+            fs::remove_file(&path).map_err(|source| OutputError::Remove { path, source })?;
+        }
+    }
+    Ok(())
+}
+
+fn temporary_name(path: &Path) -> PathBuf {
+    let mut name = OsString::from(".");
+    name.push(path.file_name().unwrap_or_default());
+    name.push(format!(".{}{SUFFIX}", std::process::id()));
+    path.with_file_name(name)
+}
+
+/// The final name a temporary file is for: `a.npy` for `.a.npy.4711.part`.
+fn final_name(temporary: &str) -> Option<&str> {
+    let (name, process) = temporary.strip_prefix('.')?.strip_suffix(SUFFIX)?.rsplit_once('.')?;
+    process.parse::<u32>().ok().map(|_| name)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_failure_leaves_what_was_there_and_nothing_else() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("map.npy");
+        write_whole(&path, |sink| sink.write_all(b"first")).unwrap();
+        let failed = write_whole(&path, |sink| {
+            sink.write_all(b"half of the sec")?;
+            Err(io::Error::from(io::ErrorKind::StorageFull))
+        });
+        assert!(failed.unwrap_err().to_string().contains("map.npy"));
+        assert_eq!(fs::read(&path).unwrap(), b"first");
+        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
+    }
+
+    #[test]
+    fn nothing_has_its_final_name_before_it_is_whole() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("map.npy");
+        write_whole(&path, |sink| {
+            assert!(!path.exists());
+            sink.write_all(b"all")
+        })
+        .unwrap();
+        assert_eq!(fs::read(&path).unwrap(), b"all");
+    }
+
+    #[test]
+    fn leftovers_of_ones_own_files_go_and_all_else_stays() {
+        let folder = tempfile::tempdir().unwrap();
+        let names = [".a.npy.12.part", ".b.npy.12.part", "a.npy", ".a.npy.part", ".a.npy.x.part", "c.part"];
+        for name in names {
+            fs::write(folder.path().join(name), b"").unwrap();
+        }
+        remove_leftovers(folder.path(), |name| name == "a.npy").unwrap();
+        let gone: Vec<_> = names.into_iter().filter(|name| !folder.path().join(name).exists()).collect();
+        assert_eq!(gone, [".a.npy.12.part"]);
+    }
+
+    #[test]
+    fn a_temporary_name_leads_back_to_its_final_name() {
+        let temporary = temporary_name(Path::new("out/bake.json"));
+        assert_eq!(temporary.parent(), Some(Path::new("out")));
+        assert_eq!(final_name(temporary.file_name().unwrap().to_str().unwrap()), Some("bake.json"));
+    }
+}
