@@ -44,7 +44,8 @@ need_tool() {
 
 # Rust is the one thing a person has to bring.
 need_rust() {
-  PATH=$PATH:${CARGO_HOME:-$(echo ~)/.cargo}/bin # ~ is known even where HOME is not set
+  local home=~ # known even where HOME is not set
+  PATH=$PATH:${CARGO_HOME:-$home/.cargo}/bin
   command -v cargo >/dev/null ||
     fail "Rust is missing: install it with rustup (see the 'Install Rust' page of the Rust project), then run this again"
   need_tool cc "Rust links with it" gcc libc6-dev
