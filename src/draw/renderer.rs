@@ -165,7 +165,7 @@ fn shared_textures(
         ImageInfo::texture(foam_pattern::SIZE as u32, foam_pattern::MIPS as u32, vk::Format::R8_UNORM);
     let foam = Image::new(device, "foam pattern", pattern)?;
     upload_image(device, &foam, &foam_pattern::texels(), 1)?;
-    let tiling = Sampler::new(device, "tiling", vk::SamplerAddressMode::REPEAT, 1.0)?;
+    let tiling = Sampler::new(device, "tiling", vk::SamplerAddressMode::REPEAT, 4.0)?;
     let clamped = Sampler::new(device, "clamped", vk::SamplerAddressMode::CLAMP_TO_EDGE, 1.0)?;
     Ok((sky, foam, tiling, clamped))
 }

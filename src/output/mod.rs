@@ -2,6 +2,7 @@
 pub mod atomic;
 pub mod exr;
 pub mod npy;
+pub mod png;
 
 use std::{io, path::PathBuf};
 
