@@ -6,7 +6,7 @@ use swell::lod::{
     Edge, Frustum, Instance, Pattern, Quality, vertex_position, vertex_spacing, vertex_spacing_bound,
 };
 
-/// Least distance of vertex (i, j), i odd, and its neighbours along x from the viewer, and the drawn edges between them.
+/// Least distance of vertex (i, j), i odd, and its neighbours along x from the viewer, and the extent along x of the edges between them.
 fn edges_along_x(
     instance: &Instance,
     pattern: Pattern,
@@ -20,7 +20,7 @@ fn edges_along_x(
     let points: Vec<_> = numbers.iter().map(|&i| vertex_position(instance, pattern, cells, i, j)).collect();
     let distance = |x: f32, z: f32| dvec3(f64::from(x) - eye.x, eye.y, f64::from(z) - eye.z).length();
     let nearest = points.iter().map(|p| distance(p.x, p.y)).fold(f64::INFINITY, f64::min);
-    (nearest, points.windows(2).map(|pair| f64::from(pair[0].distance(pair[1]))).collect())
+    (nearest, points.windows(2).map(|pair| f64::from((pair[1].x - pair[0].x).abs())).collect())
 }
 
 #[test]

@@ -10,14 +10,15 @@ const STRETCH: f64 = 1.06;
 ///
 /// distance / (V max(tau - 1/2, 1)), within `finest..=coarsest` (see [`super::Quadtree::finest_spacing`]): tau - 1/2 is
 /// where an undivided node seen across its side begins, in sides; balance keeps the mesh of the presets below
-/// tau = 1.5 as fine as that of 1.5. Measured over random viewers, at most 3 % of the drawn edges are longer. It
+/// tau = 1.5 as fine as that of 1.5. Measured over random viewers, at most 3 % of the drawn edges extend further. It
 /// depends on nothing but the distance, so patches agree at the vertices they share; it never falls with distance.
 pub fn vertex_spacing(distance: f64, preset: Preset, finest: f64, coarsest: f64) -> f64 {
     let slope = 1.0 / (f64::from(preset.cells) * (preset.lod_scale - 0.5).max(1.0));
     (distance * slope).max(finest).min(coarsest)
 }
 
-/// The same, exceeded by no drawn edge along the grid: for a mesh that must nowhere be coarser than its waves.
+/// The same, exceeded by no drawn edge's extent along the grid's axis: for a mesh that must nowhere be coarser than its
+/// waves. (Beside a border whose vertices slide by another weight edges are skewed, and somewhat longer than that.)
 ///
 /// A point of an undivided node of side s lies within s / sqrt(2) of its centre, hence s <= distance / (tau -
 /// 1/sqrt(2)). A node whose vertices have slid by m has cells up to 1 + m times as long; its parent's q then grows with
