@@ -114,7 +114,9 @@ impl Cascade {
         self.memory.texels.par_chunks_mut(ROWS * n).enumerate().for_each(|(batch, memory)| {
             for (row, memory) in memory.chunks_exact_mut(n).enumerate() {
                 gradient::jacobian_row(field, n, batch * ROWS + row, per_difference, |column, jacobian| {
-                    memory[column] = foam::fade(memory[column], decay, foam::compression(jacobian));
+                    for (memory, jacobian) in memory[column..].iter_mut().zip(jacobian) {
+                        *memory = foam::fade(*memory, decay, foam::compression(jacobian));
+                    }
                 });
             }
         });
@@ -177,9 +179,7 @@ impl Cascade {
                     let at = batch * ROWS * n + i;
                     *texel = [field.du[at], field.height[at], field.dv[at], compression];
                 }
-                for (packed, normal) in gradient.iter_mut().zip(&*normals) {
-                    *packed = gradient::pack(*normal);
-                }
+                gradient::pack(normals, gradient);
                 displacement.as_flattened_mut().convert_from_f32_slice(texels.as_flattened());
             });
     }
@@ -204,9 +204,7 @@ impl Cascade {
                 .for_each(
                     |(((((normals, upper_normals), gradient), texels), upper_texels), displacement)| {
                         halve(upper_normals, 2 * side, normals);
-                        for (packed, normal) in gradient.iter_mut().zip(&*normals) {
-                            *packed = gradient::pack(*normal);
-                        }
+                        gradient::pack(normals, gradient);
                         halve(upper_texels, 2 * side, texels);
                         displacement.as_flattened_mut().convert_from_f32_slice(texels.as_flattened());
                     },

@@ -1,5 +1,8 @@
 //! Normals, the Jacobian and their packing, eqs (45)-(51) and (53).
-use super::settings::NormalKind;
+use super::{
+    fft::{LANES, Lane},
+    settings::NormalKind,
+};
 
 /// What the gradients of a cascade depend on besides its displacement.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -30,27 +33,41 @@ pub fn normal_length(r: f32) -> f32 {
 
 /// Smoothness, 0..=1, of a normal's length, eq (53).
 pub fn smoothness(length: f32) -> f32 {
-    let t = ((length - 2.0 / 3.0) * 3.0).clamp(0.0, 1.0);
-    // The printed quadratic can end a rounding error below 0 at t = 1.
-    let roughness = (1.0 - t * (0.85 + 0.15 * t)).max(0.0);
+    // 3 (length - 2/3), and the quadratic 1 - t (0.85 + 0.15 t) in factors: both then end exactly at smooth water.
+    let t = (length * 3.0 - 2.0).clamp(0.0, 1.0);
+    let roughness = (1.0 - t) * (1.0 + 0.15 * t);
     1.0 - roughness.sqrt()
 }
 
-/// (n_u, n_v, J, smoothness) as bytes in memory order, eqs (50)(51), of an unnormalised normal and J `[n_u, n_y, n_v, J]`.
-pub fn pack([u, y, v, jacobian]: [f32; 4]) -> [u8; 4] {
-    let length = (u * u + y * y + v * v).sqrt();
-    let scale = 1.0 / length.max(f32::MIN_POSITIVE);
-    [
-        to_byte(u * scale * 0.5 + 0.5),
-        to_byte(v * scale * 0.5 + 0.5),
-        to_byte(jacobian * 0.5 + 0.5),
-        to_byte(smoothness(length)),
-    ]
+/// (n_u, n_v, J, smoothness) as bytes in memory order, eqs (50)(51), of unnormalised normals and J `[n_u, n_y, n_v, J]`.
+///
+/// `out` is as long as `texels`.
+pub fn pack(texels: &[[f32; 4]], out: &mut [[u8; 4]]) {
+    let (blocks, rest) = texels.as_chunks::<LANES>();
+    let (out_blocks, out_rest) = out.as_chunks_mut::<LANES>();
+    for (block, out) in blocks.iter().zip(out_blocks) {
+        *out = pack_block(block);
+    }
+    let mut block = [[0.0; 4]; LANES];
+    block[..rest.len()].copy_from_slice(rest);
+    out_rest.copy_from_slice(&pack_block(&block)[..rest.len()]);
 }
 
-fn to_byte(value: f32) -> u8 {
+#[inline(always)]
+fn pack_block(texels: &[[f32; 4]; LANES]) -> [[u8; 4]; LANES] {
+    let [u, y, v, jacobian]: [Lane; 4] = std::array::from_fn(|c| std::array::from_fn(|l| texels[l][c]));
+    let mut values: [Lane; 4] = [[0.0; LANES]; 4];
+    for l in 0..LANES {
+        let length = (u[l] * u[l] + y[l] * y[l] + v[l] * v[l]).sqrt();
+        let scale = 0.5 / length.max(f32::MIN_POSITIVE);
+        values[0][l] = u[l] * scale + 0.5;
+        values[1][l] = v[l] * scale + 0.5;
+        values[2][l] = jacobian[l] * 0.5 + 0.5;
+        values[3][l] = smoothness(length);
+    }
     // The cast truncates, which is floor for what clamp lets through.
-    (value.clamp(0.0, 1.0) * 255.0 + 0.5) as u8
+    let bytes = values.map(|lane| lane.map(|value| (value.clamp(0.0, 1.0) * 255.0 + 0.5) as i32));
+    std::array::from_fn(|l| std::array::from_fn(|c| bytes[c][l] as u8))
 }
 
 /// Normals times [`GradientParams::normal_length`] and J, `[n_u, n_y, n_v, J]`, of one row of the grid.
@@ -60,72 +77,87 @@ fn to_byte(value: f32) -> u8 {
 /// the map keeps no sign for n_y, so the upward part is stored as |J|, which is what a reader of the map reconstructs.
 /// The sheet normal is eq (47)'s.
 pub fn gradient_row(field: Field<'_>, n: usize, row: usize, params: &GradientParams, out: &mut [[f32; 4]]) {
-    let rows = Neighbours::of(n, row);
-    let out = &mut out[..n];
-    out[0] = rows.texel(field, [n - 1, 0, 1], params);
-    for c in 1..n - 1 {
-        out[c] = rows.texel(field, [c - 1, c, c + 1], params);
+    let rows = Rows::of(field, n, row);
+    let (blocks, _) = out[..n].as_chunks_mut::<LANES>();
+    for (block, out) in blocks.iter_mut().enumerate() {
+        let tangents = rows.tangents(block * LANES, params.per_difference);
+        let jacobian = jacobian(&tangents);
+        let [[u_u, h_u, v_u], [u_v, h_v, v_v]] = tangents;
+        let mut normal: [Lane; 3] = [[0.0; LANES]; 3];
+        for l in 0..LANES {
+            let [x, y, z] = match params.normals {
+                NormalKind::Exact => [
+                    h_v[l] * v_u[l] - (1.0 + v_v[l]) * h_u[l],
+                    jacobian[l].abs(),
+                    u_v[l] * h_u[l] - h_v[l] * (1.0 + u_u[l]),
+                ],
+                NormalKind::Sheet => [-h_u[l], 1.0, -h_v[l]],
+            };
+            let length = (x * x + y * y + z * z).sqrt();
+            let scale = params.normal_length / length.max(f32::MIN_POSITIVE);
+            normal[0][l] = x * scale;
+            normal[1][l] = y * scale;
+            normal[2][l] = z * scale;
+        }
+        let [x, y, z] = normal;
+        *out = std::array::from_fn(|l| [x[l], y[l], z[l], jacobian[l]]);
     }
-    out[n - 1] = rows.texel(field, [n - 2, n - 1, 0], params);
 }
 
-/// The Jacobian (48) alone, of one row: `visit` is given every column and its J.
+/// The Jacobian (48) alone, of one row: `visit` is given the first column of every eight, and their J.
 pub fn jacobian_row(
     field: Field<'_>,
     n: usize,
     row: usize,
     per_difference: f32,
-    mut visit: impl FnMut(usize, f32),
+    mut visit: impl FnMut(usize, Lane),
 ) {
-    let rows = Neighbours::of(n, row);
-    visit(0, jacobian(rows.tangents(field, [n - 1, 0, 1], per_difference)));
-    for c in 1..n - 1 {
-        visit(c, jacobian(rows.tangents(field, [c - 1, c, c + 1], per_difference)));
+    let rows = Rows::of(field, n, row);
+    for column in (0..n).step_by(LANES) {
+        visit(column, jacobian(&rows.tangents(column, per_difference)));
     }
-    visit(n - 1, jacobian(rows.tangents(field, [n - 2, n - 1, 0], per_difference)));
 }
 
-/// Offsets of three rows on the torus, eq (46).
+/// Three neighbouring rows of each plane on the torus, eq (46): above, here, below.
 #[derive(Clone, Copy)]
-struct Neighbours {
-    here: usize,
-    above: usize,
-    below: usize,
+struct Rows<'a> {
+    planes: [[&'a [f32]; 3]; 3],
 }
 
-impl Neighbours {
-    fn of(n: usize, row: usize) -> Self {
-        Self { here: row * n, above: (row + n - 1) % n * n, below: (row + 1) % n * n }
+/// Derivatives of (Du, h, Dv) along u and along v, of eight neighbouring columns.
+type Tangents = [[Lane; 3]; 2];
+
+impl<'a> Rows<'a> {
+    fn of(field: Field<'a>, n: usize, row: usize) -> Self {
+        let rows = [(row + n - 1) % n, row, (row + 1) % n];
+        let planes = [field.du, field.height, field.dv];
+        Self { planes: planes.map(|plane| rows.map(|row| &plane[row * n..(row + 1) * n])) }
     }
 
-    /// Derivatives of (Du, h, Dv) along u and along v.
+    /// Central differences, eq (45), at eight columns from `column`.
     #[inline(always)]
-    fn tangents(self, field: Field<'_>, [left, here, right]: [usize; 3], scale: f32) -> [[f32; 3]; 2] {
-        let planes = [field.du, field.height, field.dv];
+    fn tangents(&self, column: usize, scale: f32) -> Tangents {
+        let n = self.planes[0][1].len();
+        let difference =
+            |ahead: Lane, back: Lane| -> Lane { std::array::from_fn(|l| (ahead[l] - back[l]) * scale) };
         [
-            planes.map(|plane| (plane[self.here + right] - plane[self.here + left]) * scale),
-            planes.map(|plane| (plane[self.below + here] - plane[self.above + here]) * scale),
+            self.planes
+                .map(|[_, here, _]| difference(lane(here, column + 1), lane(here, (column + n - 1) % n))),
+            self.planes.map(|[above, _, below]| difference(lane(below, column), lane(above, column))),
         ]
     }
+}
 
-    #[inline(always)]
-    fn texel(self, field: Field<'_>, columns: [usize; 3], params: &GradientParams) -> [f32; 4] {
-        let tangents = self.tangents(field, columns, params.per_difference);
-        let jacobian = jacobian(tangents);
-        let [[u_u, h_u, v_u], [u_v, h_v, v_v]] = tangents;
-        let [x, y, z] = match params.normals {
-            NormalKind::Exact => {
-                [h_v * v_u - (1.0 + v_v) * h_u, jacobian.abs(), u_v * h_u - h_v * (1.0 + u_u)]
-            }
-            NormalKind::Sheet => [-h_u, 1.0, -h_v],
-        };
-        let length = (x * x + y * y + z * z).sqrt();
-        let scale = params.normal_length / length.max(f32::MIN_POSITIVE);
-        [x * scale, y * scale, z * scale, jacobian]
+/// Eight columns from `from`, around the end of the row.
+#[inline(always)]
+fn lane(row: &[f32], from: usize) -> Lane {
+    match row.get(from..from + LANES).and_then(|columns| columns.first_chunk()) {
+        Some(columns) => *columns,
+        None => std::array::from_fn(|l| row[(from + l) % row.len()]),
     }
 }
 
 #[inline(always)]
-fn jacobian([[u_u, _, v_u], [u_v, _, v_v]]: [[f32; 3]; 2]) -> f32 {
-    (1.0 + u_u) * (1.0 + v_v) - u_v * v_u
+fn jacobian([[u_u, _, v_u], [u_v, _, v_v]]: &Tangents) -> Lane {
+    std::array::from_fn(|l| (1.0 + u_u[l]) * (1.0 + v_v[l]) - u_v[l] * v_u[l])
 }

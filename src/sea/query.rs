@@ -5,8 +5,14 @@ use super::{
 };
 use std::ops::{Add, Mul};
 
-/// Most evaluations of the displacement in one inversion.
+/// Most steps of one inversion.
 pub const MAX_ITERATIONS: u32 = 64;
+/// Steps from one starting point; twice as many from the first.
+const STEPS: u32 = 8;
+/// Lengths tried in one step: whole, half, ... one eighth.
+const HALVINGS: u32 = 4;
+/// The angle of a sunflower's seeds, which spreads any number of starting points evenly: pi (3 - sqrt 5).
+const GOLDEN_ANGLE: f64 = 2.399_963_229_728_653;
 /// Horizontal error, metres, at which an inversion is content.
 pub const TOLERANCE: f64 = 1e-7;
 
@@ -25,7 +31,7 @@ pub struct Surface {
     pub foam: f64,
     /// Horizontal distance between `position` and the point asked for, metres; 0 for [`Surface::at_rest`].
     pub residual: f64,
-    /// Evaluations of the displacement that it took.
+    /// Steps that it took.
     pub iterations: u32,
 }
 
@@ -42,34 +48,39 @@ impl Surface {
 
     /// The point of the surface above or below world (`x`, `z`), metres: the q with q + D(q) = (x, z).
     ///
-    /// Newton's method on the piecewise bilinear field that is drawn, each step halved until it helps, with a fixed-point
-    /// step where the field is nearly folded; at most [`MAX_ITERATIONS`] evaluations. `residual` says how well it went.
-    /// Where the sea has folded over (J < 0) there are several such points and one of them is returned.
+    /// Newton's method on the piecewise bilinear field that is drawn, with damped steps; where the sea is so steep that
+    /// it stalls, it starts again from points around. At most [`MAX_ITERATIONS`] steps in all; `residual` says how well
+    /// they went. Where the sea has folded over (J < 0) there are several such points and one of them is returned.
     pub fn above(maps: &SeaMaps, x: f64, z: f64) -> Self {
         let target = [x, z];
-        let mut q = target;
-        let mut here = Sample::at(maps, q);
-        let mut miss = here.miss(q, target);
+        let mut best = Guess::at(maps, target, target);
         let mut iterations = 1;
-        while norm(miss) > TOLERANCE && iterations < MAX_ITERATIONS {
-            let step = here.newton(miss);
-            let mut share = 1.0;
-            loop {
-                let tried = [q[0] - share * step[0], q[1] - share * step[1]];
-                let there = Sample::at(maps, tried);
-                let error = there.miss(tried, target);
-                iterations += 1;
-                if norm(error) < norm(miss) {
-                    (q, here, miss) = (tried, there, error);
-                    break;
+        let [dx, _, dz] = best.sample.value.displacement;
+        // The nearest crest or trough is about a displacement away; the spiral goes twice as far.
+        let reach = 2.0 * norm([dx, dz]).max(norm(best.miss));
+        let mut guess = Guess::at(maps, [x - dx, z - dz], target);
+        for start in 1_u32.. {
+            iterations += 1;
+            let steps = if start == 1 { 2 * STEPS } else { STEPS };
+            for _ in 0..steps {
+                if norm(guess.miss) < norm(best.miss) {
+                    best = guess;
                 }
-                share *= 0.5;
-                if iterations >= MAX_ITERATIONS {
-                    break;
+                if norm(best.miss) <= TOLERANCE || iterations >= MAX_ITERATIONS {
+                    return Self { residual: norm(best.miss), ..Self::of(maps, best.q, target, iterations) };
+                }
+                iterations += 1;
+                match guess.improved(maps, target) {
+                    Some(improved) => guess = improved,
+                    None => break,
                 }
             }
+            let (sin, cos) = libm::sincos(GOLDEN_ANGLE * f64::from(start));
+            let radius = reach * (f64::from(start) * f64::from(STEPS) / f64::from(MAX_ITERATIONS)).sqrt();
+            let offset = [x - dx + radius * cos, z - dz + radius * sin];
+            guess = Guess::at(maps, offset, target);
         }
-        Self { residual: norm(miss), ..Self::of(maps, q, target, iterations) }
+        Self { residual: norm(best.miss), ..Self::of(maps, best.q, target, iterations) }
     }
 
     fn of(maps: &SeaMaps, q: [f64; 2], target: [f64; 2], iterations: u32) -> Self {
@@ -84,6 +95,36 @@ impl Surface {
             residual: if target == q { 0.0 } else { norm(sample.miss(q, target)) },
             iterations,
         }
+    }
+}
+
+/// A rest position that may be the one sought.
+#[derive(Clone, Copy, Debug)]
+struct Guess {
+    q: [f64; 2],
+    sample: Sample,
+    /// q + D(q) less the target.
+    miss: [f64; 2],
+}
+
+impl Guess {
+    fn at(maps: &SeaMaps, q: [f64; 2], target: [f64; 2]) -> Self {
+        let sample = Sample::at(maps, q);
+        Self { q, sample, miss: sample.miss(q, target) }
+    }
+
+    /// One step, halved until it helps.
+    fn improved(&self, maps: &SeaMaps, target: [f64; 2]) -> Option<Self> {
+        let step = self.sample.newton(self.miss);
+        let mut share = 1.0;
+        for _ in 0..HALVINGS {
+            let tried = Self::at(maps, [self.q[0] - share * step[0], self.q[1] - share * step[1]], target);
+            if norm(tried.miss) < norm(self.miss) {
+                return Some(tried);
+            }
+            share *= 0.5;
+        }
+        None
     }
 }
 
@@ -165,7 +206,7 @@ impl Sample {
         let [xz, _, zz] = self.along_z.displacement;
         let [xx, zz] = [1.0 + xx, 1.0 + zz];
         let determinant = xx * zz - xz * zx;
-        if determinant < NEARLY_FOLDED {
+        if determinant.abs() < NEARLY_FOLDED {
             return miss;
         }
         [(zz * miss[0] - xz * miss[1]) / determinant, (xx * miss[1] - zx * miss[0]) / determinant]

@@ -1,0 +1,90 @@
+//! The height query against the maps that are drawn.
+mod sea_common;
+use sea_common::{cascades, maps, settings};
+use swell::sea::{Spectrum, Surface};
+
+#[test]
+fn at_rest_on_a_grid_point_is_the_texel() {
+    let sea = settings(Spectrum::Jonswap);
+    let maps = maps(&sea, 5.0);
+    let map = &maps.cascades[0];
+    let spacing = map.patch_size / map.resolution as f64;
+    for (i, j) in [(0, 0), (3, 7), (63, 63), (20, 0)] {
+        let texel = map.displacement[j * map.resolution + i].map(f64::from);
+        for laps in [0.0, -3.0, 12_500.0] {
+            let [x, z] = [i, j].map(|at| at as f64 * spacing + laps * map.patch_size);
+            let surface = Surface::at_rest(&maps, x, z);
+            for (got, truth) in surface.displacement.iter().zip(texel) {
+                assert!((got - truth).abs() < 1e-6, "{i} {j}, {laps} patches away");
+            }
+            assert_eq!((surface.rest, surface.residual), ([x, z], 0.0));
+        }
+    }
+}
+
+#[test]
+fn above_is_the_inverse_of_at_rest() {
+    for sea in [settings(Spectrum::Phillips), settings(Spectrum::Tma), cascades()] {
+        let maps = maps(&sea, 31.0);
+        let mut displaced = 0.0_f64;
+        for step in 0..1000 {
+            let (x, z) = (f64::from(step) * 1.37 - 500.0, f64::from(step * step % 997) * 0.71);
+            let above = Surface::above(&maps, x, z);
+            assert!(above.residual < 1e-6, "({x}, {z}): {above:?}");
+            assert!((above.position[0] - x).hypot(above.position[2] - z) < 1e-6);
+            assert!(above.iterations <= swell::sea::query::MAX_ITERATIONS);
+            let [qx, qz] = above.rest;
+            let rest = Surface::at_rest(&maps, qx, qz);
+            assert!((rest.height() - above.height()).abs() < 1e-12);
+            assert_eq!((rest.position, rest.normal, rest.foam), (above.position, above.normal, above.foam));
+            displaced = displaced.max((x - qx).hypot(z - qz));
+        }
+        assert!(displaced > 0.05, "the sea hardly moves sideways: {displaced} m");
+    }
+}
+
+#[test]
+fn a_folded_sea_is_answered_honestly() {
+    let mut sea = settings(Spectrum::Jonswap);
+    sea.cascades[0].choppiness = 4.0;
+    let maps = maps(&sea, 2.0);
+    let mut folded = 0;
+    for step in 0..2000 {
+        let (x, z) = (f64::from(step) * 0.53, f64::from(step * step % 613) * 0.19);
+        let above = Surface::above(&maps, x, z);
+        let miss = (above.position[0] - x).hypot(above.position[2] - z);
+        assert!((miss - above.residual).abs() < 1e-9 && above.iterations <= 64);
+        folded += u32::from(above.residual > 1e-3);
+    }
+    assert!(folded < 100, "{folded} of 2000 points not found");
+}
+
+#[test]
+fn normals_are_those_of_the_surface() {
+    let maps = maps(&cascades(), 8.0);
+    let d = 1e-3;
+    let mut worst = 0.0_f64;
+    for step in 0..200 {
+        let (x, z) = (f64::from(step) * 3.1, f64::from(step) * -1.7);
+        let normal = Surface::at_rest(&maps, x, z).normal;
+        assert!((normal.iter().map(|n| n * n).sum::<f64>() - 1.0).abs() < 1e-12);
+        let along = |dx: f64, dz: f64| {
+            let (a, b) = (Surface::at_rest(&maps, x + dx, z + dz), Surface::at_rest(&maps, x - dx, z - dz));
+            [0, 1, 2].map(|i| a.position[i] - b.position[i])
+        };
+        // The drawn facets' own tangents lie across the smooth normal, up to the facets' size.
+        for tangent in [along(d, 0.0), along(0.0, d)] {
+            let length = tangent.iter().map(|t| t * t).sum::<f64>().sqrt();
+            worst = worst.max(normal.iter().zip(tangent).map(|(n, t)| n * t).sum::<f64>().abs() / length);
+        }
+    }
+    assert!(worst < 0.15, "{worst}");
+}
+
+#[test]
+fn a_thousand_kilometres_out_nothing_is_lost() {
+    let maps = maps(&settings(Spectrum::Jonswap), 14.0);
+    // 80 m divide 1 000 000 m.
+    let (near, far) = (Surface::above(&maps, 3.3, 4.4), Surface::above(&maps, 1_000_003.3, -999_995.6));
+    assert!((near.height() - far.height()).abs() < 1e-7, "{near:?} {far:?}");
+}
