@@ -1,4 +1,5 @@
 //! The same bytes with any number of threads, one frame ahead or not; errors instead of hangs.
+#![allow(clippy::expect_used, reason = "a test may panic")]
 mod sea_common;
 use sea_common::{cascades, maps};
 use swell::jobs::Workers;

@@ -172,3 +172,23 @@ fn words(panic: &(dyn Any + Send)) -> String {
     let text = panic.downcast_ref::<&str>().map(|text| (*text).to_owned());
     text.or_else(|| panic.downcast_ref::<String>().cloned()).unwrap_or_else(|| "no message".to_owned())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sea::{SeaSettings, foam::Fading};
+
+    #[test]
+    fn a_panic_is_an_error_and_not_a_hang() {
+        let mut settings = SeaSettings::default();
+        settings.cascades[0].resolution = 16;
+        let mut sea = Sea::new(&settings).unwrap();
+        // No clock has zero ticks: the step divides by them.
+        sea.fading = Some(Fading { ticks: 0, decay: 0.1, decay_per_period: 1.0, window: 3 });
+        let mut ahead = SeaAhead::new(sea, Workers::new(1).unwrap());
+        for _ in 0..2 {
+            ahead.begin(1.0).unwrap();
+            assert!(matches!(ahead.next(Some(2.0)), Err(SeaError::Panicked { time: 1.0, .. })));
+        }
+    }
+}

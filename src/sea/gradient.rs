@@ -55,19 +55,26 @@ pub fn pack(texels: &[[f32; 4]], out: &mut [[u8; 4]]) {
 
 #[inline(always)]
 fn pack_block(texels: &[[f32; 4]; LANES]) -> [[u8; 4]; LANES] {
-    let [u, y, v, jacobian]: [Lane; 4] = std::array::from_fn(|c| std::array::from_fn(|l| texels[l][c]));
-    let mut values: [Lane; 4] = [[0.0; LANES]; 4];
+    let mut packed = [0_u32; LANES];
     for l in 0..LANES {
-        let length = (u[l] * u[l] + y[l] * y[l] + v[l] * v[l]).sqrt();
+        let [u, y, v, jacobian] = texels[l];
+        let length = (u * u + y * y + v * v).sqrt();
         let scale = 0.5 / length.max(f32::MIN_POSITIVE);
-        values[0][l] = u[l] * scale + 0.5;
-        values[1][l] = v[l] * scale + 0.5;
-        values[2][l] = jacobian[l] * 0.5 + 0.5;
-        values[3][l] = smoothness(length);
+        packed[l] = to_byte(u * scale + 0.5)
+            | to_byte(v * scale + 0.5) << 8
+            | to_byte(jacobian * 0.5 + 0.5) << 16
+            | to_byte(smoothness(length)) << 24;
     }
-    // The cast truncates, which is floor for what clamp lets through.
-    let bytes = values.map(|lane| lane.map(|value| (value.clamp(0.0, 1.0) * 255.0 + 0.5) as i32));
-    std::array::from_fn(|l| std::array::from_fn(|c| bytes[c][l] as u8))
+    std::array::from_fn(|l| packed[l].to_le_bytes())
+}
+
+/// floor(255 `value` + 1/2), clamped.
+#[inline(always)]
+fn to_byte(value: f32) -> u32 {
+    // Between 256 and 512 the integer part's last eight bits are the mantissa's first: a floor without a conversion,
+    // which the compiler would not vectorise.
+    let shifted = value.clamp(0.0, 1.0) * 255.0 + 0.5 + 256.0;
+    shifted.to_bits() >> 15 & 0xff
 }
 
 /// Normals times [`GradientParams::normal_length`] and J, `[n_u, n_y, n_v, J]`, of one row of the grid.
@@ -80,27 +87,21 @@ pub fn gradient_row(field: Field<'_>, n: usize, row: usize, params: &GradientPar
     let rows = Rows::of(field, n, row);
     let (blocks, _) = out[..n].as_chunks_mut::<LANES>();
     for (block, out) in blocks.iter_mut().enumerate() {
-        let tangents = rows.tangents(block * LANES, params.per_difference);
-        let jacobian = jacobian(&tangents);
-        let [[u_u, h_u, v_u], [u_v, h_v, v_v]] = tangents;
-        let mut normal: [Lane; 3] = [[0.0; LANES]; 3];
+        let [[u_u, h_u, v_u], [u_v, h_v, v_v]] = rows.tangents(block * LANES, params.per_difference);
         for l in 0..LANES {
+            let jacobian = jacobian(u_u[l], v_u[l], u_v[l], v_v[l]);
             let [x, y, z] = match params.normals {
                 NormalKind::Exact => [
                     h_v[l] * v_u[l] - (1.0 + v_v[l]) * h_u[l],
-                    jacobian[l].abs(),
+                    jacobian.abs(),
                     u_v[l] * h_u[l] - h_v[l] * (1.0 + u_u[l]),
                 ],
                 NormalKind::Sheet => [-h_u[l], 1.0, -h_v[l]],
             };
             let length = (x * x + y * y + z * z).sqrt();
             let scale = params.normal_length / length.max(f32::MIN_POSITIVE);
-            normal[0][l] = x * scale;
-            normal[1][l] = y * scale;
-            normal[2][l] = z * scale;
+            out[l] = [x * scale, y * scale, z * scale, jacobian];
         }
-        let [x, y, z] = normal;
-        *out = std::array::from_fn(|l| [x[l], y[l], z[l], jacobian[l]]);
     }
 }
 
@@ -114,7 +115,12 @@ pub fn jacobian_row(
 ) {
     let rows = Rows::of(field, n, row);
     for column in (0..n).step_by(LANES) {
-        visit(column, jacobian(&rows.tangents(column, per_difference)));
+        let [[u_u, _, v_u], [u_v, _, v_v]] = rows.tangents(column, per_difference);
+        let mut jacobians = [0.0; LANES];
+        for l in 0..LANES {
+            jacobians[l] = jacobian(u_u[l], v_u[l], u_v[l], v_v[l]);
+        }
+        visit(column, jacobians);
     }
 }
 
@@ -138,13 +144,16 @@ impl<'a> Rows<'a> {
     #[inline(always)]
     fn tangents(&self, column: usize, scale: f32) -> Tangents {
         let n = self.planes[0][1].len();
-        let difference =
-            |ahead: Lane, back: Lane| -> Lane { std::array::from_fn(|l| (ahead[l] - back[l]) * scale) };
-        [
-            self.planes
-                .map(|[_, here, _]| difference(lane(here, column + 1), lane(here, (column + n - 1) % n))),
-            self.planes.map(|[above, _, below]| difference(lane(below, column), lane(above, column))),
-        ]
+        let mut tangents = [[[0.0; LANES]; 3]; 2];
+        for (plane, [above, here, below]) in self.planes.iter().enumerate() {
+            let (right, left) = (lane(here, column + 1), lane(here, (column + n - 1) % n));
+            let (below, above) = (lane(below, column), lane(above, column));
+            for l in 0..LANES {
+                tangents[0][plane][l] = (right[l] - left[l]) * scale;
+                tangents[1][plane][l] = (below[l] - above[l]) * scale;
+            }
+        }
+        tangents
     }
 }
 
@@ -153,11 +162,16 @@ impl<'a> Rows<'a> {
 fn lane(row: &[f32], from: usize) -> Lane {
     match row.get(from..from + LANES).and_then(|columns| columns.first_chunk()) {
         Some(columns) => *columns,
-        None => std::array::from_fn(|l| row[(from + l) % row.len()]),
+        None => around_the_end(row, from),
     }
 }
 
+#[cold]
+fn around_the_end(row: &[f32], from: usize) -> Lane {
+    std::array::from_fn(|l| row[(from + l) % row.len()])
+}
+
 #[inline(always)]
-fn jacobian([[u_u, _, v_u], [u_v, _, v_v]]: &Tangents) -> Lane {
-    std::array::from_fn(|l| (1.0 + u_u[l]) * (1.0 + v_v[l]) - u_v[l] * v_u[l])
+fn jacobian(u_u: f32, v_u: f32, u_v: f32, v_v: f32) -> f32 {
+    (1.0 + u_u) * (1.0 + v_v) - u_v * v_u
 }
