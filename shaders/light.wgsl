@@ -10,7 +10,7 @@ fn sky_radiance(direction: vec3f, mip: f32) -> vec3f {
 // ends in the sky without a line (Koschmieder's law).
 fn haze(color: vec3f, view: vec3f, distance: f32) -> vec3f {
     let kept = exp(-frame.air.x * distance);
-    let horizon = sky_radiance(vec3f(-view.x, max(-view.y, 0.004), -view.z), 2.0);
+    let horizon = sky_radiance(vec3f(-view.x, max(-view.y, 0.012), -view.z), 0.0);
     return mix(horizon, color, kept);
 }
 

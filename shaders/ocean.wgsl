@@ -39,9 +39,9 @@ fn rest_position(in: Patch) -> vec2f {
     // A stitched edge only has the coarser patch's vertices, and moves as that patch moves it.
     let halve = select(0u, 1u, (edge & draw.pattern) != 0u);
     let number = in.vertex >> vec2u(halve);
-    // Odd numbers slide to the nearest multiple of four: 1 to 0, 3 to 4.
+    // Odd numbers slide to the even one between multiples of four: 1 and 3 to 2.
     let odd = vec2f(number & vec2u(1u));
-    let slide = odd * (vec2f(number & vec2u(2u)) - 1.0) * weight;
+    let slide = odd * (1.0 - vec2f(number & vec2u(2u))) * weight;
     let place = (vec2f(number) + slide) * f32(1u << halve);
     return in.place.xy + (place / frame.lod.x - 0.5) * in.place.z;
 }

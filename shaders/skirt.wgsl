@@ -3,11 +3,12 @@
 
 @vertex
 fn vertex_main(@location(0) vertex: vec4f, @builtin(view_index) view: u32) -> Varyings {
+    // A long way to infinity: what is interpolated towards such a vertex is then true up to about its length, where
+    // haze has long swallowed everything.
+    let place = vertex * select(1.0, 1.0e7, vertex.w == 0.0);
     var out: Varyings;
-    out.clip = frame.view_projection[view] * vertex;
-    // A point at infinity cannot be interpolated to: the far end is put where haze has swallowed everything.
-    let far = select(1.0, 1.0e5, vertex.w == 0.0);
-    out.position = vertex.xyz * far;
+    out.clip = frame.view_projection[view] * place;
+    out.position = place.xyz;
     out.rest = out.position.xz;
     out.compression = 0.0;
     out.level = 0.0;

@@ -101,7 +101,7 @@ fn shade(in: Varyings) -> vec3f {
     let through = frame.scatter.rgb * frame.sun_light.rgb
         * (crest * towards_sun * towards_sun * facing * facing * facing);
 
-    let white = foam_cover(in.rest, max(in.compression, surface.compression));
+    let white = foam_cover(in.rest, in.compression);
     let water = mix(below + through, reflected, reflectance) + glitter;
     let color = mix(water, frame.foam.rgb * daylight / PI, white);
     return tone_map(haze(color, v, distance));
