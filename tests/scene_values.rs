@@ -2,8 +2,8 @@
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 use std::f64::consts::{FRAC_PI_2, PI};
 use swell::lod::Quality;
-use swell::scene::{Scene, SkySource, split_bands};
-use swell::sea::{NormalKind, Spectrum};
+use swell::scene::{Scene, SkySource};
+use swell::sea::{NormalKind, Sea, Spectrum, split_bands};
 
 fn parse(text: &str) -> Scene {
     Scene::parse(text, "x.toml").unwrap()
@@ -104,6 +104,7 @@ fn the_scenes_that_come_along_are_in_order() {
         let scene = Scene::load(format!("{scenes}{name}")).unwrap();
         let finest = scene.lod.size / 2f64.powi(scene.lod.levels.unwrap() as i32);
         assert_eq!(finest, 16.0, "{name}");
+        Sea::new(&scene.sea).unwrap();
         // Bands join: the sum of the cascades is the whole spectrum.
         assert_eq!(scene.sea.cascades.len(), 3);
         assert_eq!(scene.sea.cascades[0].band[0], 0.0);
@@ -116,4 +117,25 @@ fn the_scenes_that_come_along_are_in_order() {
     assert_eq!(Scene::flagship().unwrap(), flagship);
     assert_eq!(flagship.sea.cascades[0].wind_speed, 14.0);
     assert_eq!(flagship.camera.eye[1], 4.0);
+    // Significant wave heights, four standard deviations, are those the scenes' comments promise.
+    for (name, height, tolerance) in [("open_ocean", 3.0, 0.3), ("calm", 0.4, 0.1), ("storm", 7.0, 1.0)] {
+        let scene = Scene::load(format!("{scenes}{name}.toml")).unwrap();
+        let significant = 4.0 * scene.sea.expected_rms_height();
+        assert!((significant - height).abs() < tolerance, "{name}: {significant} m");
+    }
+}
+
+#[test]
+fn whatever_the_schema_allows_makes_a_sea() {
+    let extremes = [
+        "resolution = 16\npatch_size = 1\nwind_speed = 60\nfetch = 5e6\npeak_enhancement = 7\nchoppiness = 3\namplitude = 1000",
+        "resolution = 512\npatch_size = 10000\nwind_speed = 1e-9\nfetch = 100\ndepth = 0.5\nspectrum = 'tma'\namplitude = 0",
+        "repeat_period = 10\ngravity = 100\nwind_speed = 0\nfoam = { threshold = 0, width = 0.001, fade_time = 600 }",
+        "repeat_period = 3600\ngravity = 0.1\nspectrum = 'phillips'\nalignment = 1\nsmall_wave_suppression = 1\nroughness = 1",
+    ];
+    for extreme in extremes {
+        let scene = parse(&format!("[sea]\n{extreme}\n"));
+        Sea::new(&scene.sea).unwrap();
+        assert!(scene.lod.reach.is_finite() && scene.lod.max_height.unwrap().is_finite());
+    }
 }

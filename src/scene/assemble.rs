@@ -3,10 +3,10 @@ use super::draft::{Blank, CascadeDraft, LodDraft, SkyDraft, SkyModel};
 use super::error::{Place, SceneError};
 use super::key::Key;
 use super::reader::{Reader, excerpt};
-use super::{CameraSettings, Scene, SkySettings, SkySource, WaterSettings, bands, extent, schema};
+use super::{CameraSettings, Scene, SkySettings, SkySource, WaterSettings, schema};
 use crate::lod::LodSettings;
 use crate::sea::settings::MAX_CASCADES;
-use crate::sea::{CascadeSettings, FoamSettings, SeaSettings};
+use crate::sea::{CascadeSettings, FoamSettings, SeaSettings, split_bands};
 use std::ops::Range;
 use std::path::Path;
 use toml::de::DeTable;
@@ -36,10 +36,9 @@ pub(super) fn assemble(text: &str, file: &str) -> Result<Scene, SceneError> {
     let lod: LodDraft = read_section(&mut reader, root, "lod", schema::LOD);
     reader.finish()?;
 
-    let extent = extent::estimate(lod.settings.size);
     let lod = LodSettings {
-        max_height: lod.settings.max_height.or(Some(extent.height)),
-        reach: lod.reach.unwrap_or(extent.reach),
+        max_height: Some(lod.settings.max_height.unwrap_or_else(|| sea.max_height())),
+        reach: lod.reach.unwrap_or_else(|| sea.reach()),
         ..lod.settings
     };
     Ok(Scene { sea, lod, sky, water, camera })
@@ -144,7 +143,7 @@ fn share_wave_numbers(reader: &mut Reader<'_>, mut cascades: Vec<FoundCascade>) 
     } else {
         let patches: Vec<_> =
             cascades.iter().map(|c| (c.draft.settings.patch_size, c.draft.settings.resolution)).collect();
-        for (cascade, band) in cascades.iter_mut().zip(bands::split_bands(&patches)) {
+        for (cascade, band) in cascades.iter_mut().zip(split_bands(&patches)) {
             cascade.draft.settings.band = band;
             if band[0] >= band[1] {
                 let problem = format!(

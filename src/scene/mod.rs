@@ -8,17 +8,14 @@ use std::io::Read;
 use std::path::{Path, PathBuf};
 
 mod assemble;
-mod bands;
 mod draft;
 mod error;
-mod extent;
 mod key;
 mod reader;
 mod reference;
 mod schema;
 mod section;
 
-pub use bands::split_bands;
 pub use error::{Place, SceneError};
 pub use reference::reference;
 
