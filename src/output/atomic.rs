@@ -7,6 +7,7 @@ use std::ffi::OsString;
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Seek, Write};
 use std::path::{Path, PathBuf};
+use std::time::Duration;
 
 const SUFFIX: &str = ".part";
 
@@ -37,19 +38,23 @@ pub fn write_whole(
     })
 }
 
-/// Removes what interrupted runs left of the files called `is_ours` in `folder`.
+/// Removes from `folder` what interrupted runs left of files, where `is_left` says so of the file's final name and of
+/// the time since the leftover was last written to.
 ///
-/// Other processes may be writing other files of the same folder, so only names that are this run's own to write are
-/// touched.
+/// Other processes may be writing other files of the same folder: theirs are to be spared.
 ///
 /// # Errors
 /// [`OutputError::Read`] when the folder cannot be listed, [`OutputError::Remove`] when a leftover cannot be removed.
-pub fn remove_leftovers(folder: &Path, is_ours: impl Fn(&str) -> bool) -> Result<(), OutputError> {
+pub fn remove_leftovers(folder: &Path, is_left: impl Fn(&str, Duration) -> bool) -> Result<(), OutputError> {
     let unreadable = |source| OutputError::Read { path: folder.to_owned(), source };
     for entry in fs::read_dir(folder).map_err(unreadable)? {
         let entry = entry.map_err(unreadable)?;
         let name = entry.file_name();
-        if name.to_str().and_then(final_name).is_some_and(&is_ours) {
+        let Some(name) = name.to_str().and_then(final_name) else { continue };
+        let modified = entry.metadata().and_then(|metadata| metadata.modified());
+        // One that vanishes meanwhile, or is newer than the clock, is somebody's work.
+        let age = modified.ok().and_then(|time| time.elapsed().ok()).unwrap_or_default();
+        if is_left(name, age) {
             let path = entry.path();
             fs::remove_file(&path).map_err(|source| OutputError::Remove { path, source })?;
         }
@@ -107,7 +112,7 @@ mod tests {
         for name in names {
             fs::write(folder.path().join(name), b"").unwrap();
         }
-        remove_leftovers(folder.path(), |name| name == "a.npy").unwrap();
+        remove_leftovers(folder.path(), |name, _| name == "a.npy").unwrap();
         let gone: Vec<_> = names.into_iter().filter(|name| !folder.path().join(name).exists()).collect();
         assert_eq!(gone, [".a.npy.12.part"]);
     }
