@@ -63,6 +63,19 @@ fn parts_equal_the_whole() {
 }
 
 #[test]
+fn parts_baked_at_the_same_time_equal_the_whole() {
+    let whole = tempfile::tempdir().unwrap();
+    bake(&scene(), &options(whole.path(), "12")).unwrap();
+    let parts = tempfile::tempdir().unwrap();
+    std::thread::scope(|scope| {
+        for range in ["0..4", "4..8", "8..12"] {
+            scope.spawn(|| bake(&scene(), &options(parts.path(), range)).unwrap());
+        }
+    });
+    assert!(files(whole.path()) == files(parts.path()));
+}
+
+#[test]
 fn arrays_hold_the_maps_of_their_time() {
     let folder = tempfile::tempdir().unwrap();
     bake(&scene(), &options(folder.path(), "7..8")).unwrap();
@@ -129,7 +142,7 @@ fn a_second_bake_writes_only_what_is_not_whole() {
         let kept = folder.path().join(format!("displacement_0_0001.{name}"));
         let before = fs::metadata(&kept).unwrap().modified().unwrap();
         // What a killed bake would leave.
-        fs::write(folder.path().join(format!(".displacement_0_0000.{name}.1.part")), b"half").unwrap();
+        fs::write(folder.path().join(format!(".displacement_0_0000.{name}.1-0.part")), b"half").unwrap();
 
         assert_eq!(bake(&scene(), &options).unwrap(), BakeReport { written: 4, kept: 4 });
         assert_eq!(fs::metadata(&kept).unwrap().modified().unwrap(), before);
@@ -141,7 +154,7 @@ fn a_second_bake_writes_only_what_is_not_whole() {
 #[test]
 fn leftovers_of_other_frames_may_be_somebodys_work() {
     let folder = tempfile::tempdir().unwrap();
-    let other = folder.path().join(".displacement_0_0009.npy.1.part");
+    let other = folder.path().join(".displacement_0_0009.npy.1-0.part");
     fs::write(&other, b"half").unwrap();
     bake(&scene(), &options(folder.path(), "2")).unwrap();
     assert!(other.exists());

@@ -42,7 +42,9 @@ fn the_point_at_rest_is_found_again_above_its_position() {
     let position = numbers(&rest["position"]);
     let displacement = numbers(&rest["displacement"]);
     // JSON is read back to the last bit but one.
-    for (position, sum) in position.iter().zip([11.0 + displacement[0], displacement[1], -5.0 + displacement[2]]) {
+    for (position, sum) in
+        position.iter().zip([11.0 + displacement[0], displacement[1], -5.0 + displacement[2]])
+    {
         assert!((position - sum).abs() < 1e-12);
     }
     let above = ask(3.0, &[Point::At([position[0], position[2]])]).remove(0);

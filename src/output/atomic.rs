@@ -1,12 +1,13 @@
 //! Files that appear under their final names only when whole.
 //!
-//! A file is written beside its final place as `.NAME.PROCESS.part` and renamed when complete: on one file system a
+//! A file is written beside its final place as `.NAME.PROCESS-NUMBER.part` and renamed when complete: on one file system a
 //! rename happens at once or not at all, so neither a kill nor a full disk leaves half a file under a final name.
 use super::OutputError;
 use std::ffi::OsString;
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Seek, Write};
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Duration;
 
 const SUFFIX: &str = ".part";
@@ -63,16 +64,20 @@ pub fn remove_leftovers(folder: &Path, is_left: impl Fn(&str, Duration) -> bool)
 }
 
 fn temporary_name(path: &Path) -> PathBuf {
+    static NUMBER: AtomicU64 = AtomicU64::new(0);
+    let number = NUMBER.fetch_add(1, Ordering::Relaxed);
     let mut name = OsString::from(".");
     name.push(path.file_name().unwrap_or_default());
-    name.push(format!(".{}{SUFFIX}", std::process::id()));
+    name.push(format!(".{}-{number}{SUFFIX}", std::process::id()));
     path.with_file_name(name)
 }
 
-/// The final name a temporary file is for: `a.npy` for `.a.npy.4711.part`.
+/// The final name a temporary file is for: `a.npy` for `.a.npy.4711-0.part`.
 fn final_name(temporary: &str) -> Option<&str> {
-    let (name, process) = temporary.strip_prefix('.')?.strip_suffix(SUFFIX)?.rsplit_once('.')?;
-    process.parse::<u32>().ok().map(|_| name)
+    let (name, writer) = temporary.strip_prefix('.')?.strip_suffix(SUFFIX)?.rsplit_once('.')?;
+    let (process, number) = writer.split_once('-')?;
+    let digits = |text: &str| !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit());
+    (digits(process) && digits(number)).then_some(name)
 }
 
 #[cfg(test)]
@@ -108,13 +113,21 @@ mod tests {
     #[test]
     fn leftovers_of_ones_own_files_go_and_all_else_stays() {
         let folder = tempfile::tempdir().unwrap();
-        let names = [".a.npy.12.part", ".b.npy.12.part", "a.npy", ".a.npy.part", ".a.npy.x.part", "c.part"];
+        let names = [
+            ".a.npy.12-3.part",
+            ".b.npy.12-3.part",
+            ".a.npy.12.part",
+            "a.npy",
+            ".a.npy.part",
+            ".a.npy.x.part",
+            "c.part",
+        ];
         for name in names {
             fs::write(folder.path().join(name), b"").unwrap();
         }
         remove_leftovers(folder.path(), |name, _| name == "a.npy").unwrap();
         let gone: Vec<_> = names.into_iter().filter(|name| !folder.path().join(name).exists()).collect();
-        assert_eq!(gone, [".a.npy.12.part"]);
+        assert_eq!(gone, [".a.npy.12-3.part"]);
     }
 
     #[test]
