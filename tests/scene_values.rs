@@ -3,7 +3,7 @@
 use std::f64::consts::{FRAC_PI_2, PI};
 use swell::lod::Quality;
 use swell::scene::{Scene, SkySource};
-use swell::sea::{NormalKind, Sea, Spectrum, split_bands};
+use swell::sea::{NormalKind, Sea, Spectrum, Surface, split_bands};
 
 fn parse(text: &str) -> Scene {
     Scene::parse(text, "x.toml").unwrap()
@@ -123,6 +123,28 @@ fn the_scenes_that_come_along_are_in_order() {
         let significant = 4.0 * scene.sea.expected_rms_height();
         assert!((significant - height).abs() < tolerance, "{name}: {significant} m");
     }
+}
+
+/// Share of the sea under foam at 10 s, from points that repeat with no patch.
+fn foam_cover(scene: &Scene) -> f64 {
+    let mut sea = Sea::new(&scene.sea).unwrap();
+    let mut maps = sea.new_maps();
+    sea.step(10.0, &mut maps).unwrap();
+    let points = (0..100).flat_map(|i| (0..100).map(move |j| [7.31 * f64::from(i), 7.77 * f64::from(j)]));
+    points.map(|[x, z]| Surface::at_rest(&maps, x, z).foam).sum::<f64>() / 1e4
+}
+
+#[test]
+fn foam_covers_as_much_as_the_wind_makes() {
+    // Monahan and O'Muircheartaigh 1980: 3.84e-6 U^3.41, here within a factor of two, which is their own scatter.
+    for (name, wind) in [("open_ocean", 14.0f64), ("storm", 25.0)] {
+        let scene = Scene::load(format!("{}/scenes/{name}.toml", env!("CARGO_MANIFEST_DIR"))).unwrap();
+        let measured = 3.84e-6 * wind.powf(3.41);
+        let cover = foam_cover(&scene);
+        assert!((0.5..2.0).contains(&(cover / measured)), "{name}: {cover}, measured at sea {measured}");
+    }
+    let calm = Scene::load(concat!(env!("CARGO_MANIFEST_DIR"), "/scenes/calm.toml")).unwrap();
+    assert!(foam_cover(&calm) < 0.002);
 }
 
 #[test]

@@ -167,11 +167,11 @@ pub(super) static FOAM: &[Key<FoamSettings>] = &[
         "threshold",
         "",
         [0.0, 4.0],
-        0.55,
+        0.27,
         |f, v| f.threshold = v,
         "Compression 1 - J, summed over cascades, at which foam begins.",
     ),
-    number("width", "", [0.001, 4.0], 0.5, |f, v| f.width = v, "Further compression at which foam is whole."),
+    number("width", "", [0.001, 4.0], 0.3, |f, v| f.width = v, "Further compression at which foam is whole."),
     number(
         "fade_time",
         "s",
