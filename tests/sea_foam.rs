@@ -17,7 +17,7 @@ fn steep() -> SeaSettings {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 12, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: 12, failure_persistence: None, ..ProptestConfig::default() })]
     #[test]
     fn maps_do_not_depend_on_the_way_there(times in prop::collection::vec(-80.0..150.0_f64, 1..5), last in 0..1500_u32) {
         // On ticks, between them, and across the loop's end.

@@ -44,6 +44,30 @@ fn above_is_the_inverse_of_at_rest() {
 }
 
 #[test]
+fn a_sea_turned_with_its_wind_is_the_sea_seen_turned() {
+    let straight = settings(Spectrum::Jonswap);
+    let (mut turned, angle) = (straight.clone(), 0.9_f64);
+    turned.cascades[0].rotation = angle;
+    turned.cascades[0].wind_direction += angle;
+    let (straight, turned) = (maps(&straight, 7.0), maps(&turned, 7.0));
+    // Counter-clockwise seen from above takes +X towards -Z.
+    let (sin, cos) = angle.sin_cos();
+    let turn = |x: f64, z: f64| [x * cos + z * sin, z * cos - x * sin];
+    for step in 0..100 {
+        let (x, z) = (f64::from(step) * 2.3, f64::from(step) * -1.1);
+        let [tx, tz] = turn(x, z);
+        let (a, b) = (Surface::at_rest(&straight, x, z), Surface::at_rest(&turned, tx, tz));
+        for (a, b) in [(a.displacement, b.displacement), (a.normal, b.normal), (a.position, b.position)] {
+            let [ax, az] = turn(a[0], a[2]);
+            let error = (ax - b[0]).abs() + (a[1] - b[1]).abs() + (az - b[2]).abs();
+            assert!(error < 1e-3, "({x}, {z}): {a:?} {b:?}");
+        }
+        let above = Surface::above(&turned, b.position[0], b.position[2]);
+        assert!((above.height() - b.height()).abs() < 1e-5);
+    }
+}
+
+#[test]
 fn a_folded_sea_is_answered_honestly() {
     let mut sea = settings(Spectrum::Jonswap);
     sea.cascades[0].choppiness = 4.0;

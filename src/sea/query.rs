@@ -3,6 +3,7 @@ use super::{
     foam::foam,
     maps::{CascadeMaps, SeaMaps},
 };
+use half::slice::HalfFloatSliceExt;
 use std::ops::{Add, Mul};
 
 /// Most steps of one inversion.
@@ -242,7 +243,10 @@ impl Cell {
     fn texel(&self, maps: &CascadeMaps, i: usize, j: usize) -> Value {
         let n = maps.resolution;
         let at = (self.row + j) % n * n + (self.column + i) % n;
-        let [u, h, v, compression] = maps.displacement[at].map(f64::from);
+        // Four at once: the conversion's choice of instructions costs more than the conversion.
+        let mut texel = [0.0_f32; 4];
+        maps.displacement[at].as_slice().convert_to_f32_slice(&mut texel);
+        let [u, h, v, compression] = texel.map(f64::from);
         Value { displacement: [u, h, v], compression }
     }
 
