@@ -1,8 +1,10 @@
 //! Arguments and what they lead to.
 
 use clap::{Args, Parser, Subcommand};
+use std::io::{BufWriter, stdout};
 use std::path::PathBuf;
-use swell::commands::{self, CommandError, RenderOptions};
+use swell::commands::query::{Coordinates, Point};
+use swell::commands::{self, BakeOptions, Clock, CommandError, Frames, RenderOptions, bake::Format};
 use swell::draw::Look;
 use swell::scene::Scene;
 
@@ -18,32 +20,44 @@ pub struct Arguments {
 enum Command {
     /// Draw a scene into pictures.
     Render(Render),
+    /// Write the sea's maps into files.
+    Bake(Bake),
+    /// Tell where the surface is, as one JSON object a point.
+    Query(Query),
+    /// List Vulkan devices, what they lack, and which would be used.
+    Info(Info),
 }
 
-/// Which frames.
 #[derive(Args)]
-struct Frames {
+struct SceneFile {
+    /// Scene file; without one, the flagship: the open ocean.
+    #[arg(long)]
+    scene: Option<PathBuf>,
+}
+
+/// Which frames, and when they are.
+#[derive(Args)]
+struct Timeline {
     /// How many frames, or which: A..B without B. Files are numbered by frame, so parts of a sequence fit together.
-    #[arg(long, default_value = "1", value_parser = frame_range, value_name = "N|A..B")]
-    frames: std::ops::Range<u64>,
+    #[arg(long, default_value = "1", value_name = "N|A..B")]
+    frames: Frames,
     /// Frames a second.
-    #[arg(long, default_value_t = 30.0, value_parser = frames_a_second)]
+    #[arg(long, default_value_t = 30.0)]
     fps: f64,
     /// Time of frame 0, seconds.
-    #[arg(long, default_value_t = 0.0, value_parser = seconds, allow_negative_numbers = true)]
+    #[arg(long, default_value_t = 0.0, allow_negative_numbers = true)]
     start: f64,
 }
 
 #[derive(Args)]
 struct Render {
-    /// Scene file; without one, the flagship: the open ocean.
-    #[arg(long)]
-    scene: Option<PathBuf>,
+    #[command(flatten)]
+    scene: SceneFile,
     /// A folder for frame_0000.png and so on, or one picture ending in .png (or .exr with --debug height).
     #[arg(long, value_name = "DIR|FILE")]
     out: PathBuf,
     #[command(flatten)]
-    frames: Frames,
+    timeline: Timeline,
     /// Pixels of one view.
     #[arg(long, default_value = "1280x720", value_parser = picture_size, value_name = "WxH")]
     size: [u32; 2],
@@ -70,18 +84,77 @@ struct Render {
     threads: usize,
 }
 
+#[derive(Args)]
+struct Bake {
+    #[command(flatten)]
+    scene: SceneFile,
+    /// Folder for the maps; what is whole in it is not written again.
+    #[arg(long, value_name = "DIR")]
+    out: PathBuf,
+    #[command(flatten)]
+    timeline: Timeline,
+    /// Format of the maps: npy or exr.
+    #[arg(long, default_value = "npy")]
+    format: Format,
+    /// Worker threads; one a core if not given.
+    #[arg(long, default_value_t = 0, hide_default_value = true)]
+    threads: usize,
+}
+
+#[derive(Args)]
+struct Query {
+    #[command(flatten)]
+    scene: SceneFile,
+    /// When, seconds.
+    #[arg(long, allow_negative_numbers = true)]
+    time: f64,
+    /// The surface above or below this point of the world; may be given many times.
+    #[arg(long, value_name = "X,Z", allow_hyphen_values = true)]
+    at: Vec<Coordinates>,
+    /// The water that rests at this point; may be given many times.
+    #[arg(long, value_name = "X,Z", allow_hyphen_values = true)]
+    rest: Vec<Coordinates>,
+}
+
+#[derive(Args)]
+struct Info {
+    #[command(flatten)]
+    scene: SceneFile,
+    /// As JSON.
+    #[arg(long)]
+    json: bool,
+}
+
 impl Arguments {
     /// Does what was asked.
-    pub fn run(self) -> Result<(), CommandError> {
+    pub fn run(self, order: &[String]) -> Result<(), CommandError> {
         match self.command {
             Command::Render(render) => render.run(),
+            Command::Bake(bake) => bake.run(),
+            Command::Query(query) => query.run(order),
+            Command::Info(info) => commands::info(&info.scene.load()?, info.json, stdout().lock()),
         }
+    }
+}
+
+impl SceneFile {
+    fn load(self) -> Result<Scene, CommandError> {
+        Ok(match self.scene {
+            Some(file) => Scene::load(file)?,
+            None => Scene::flagship()?,
+        })
+    }
+}
+
+impl Timeline {
+    fn clock(&self) -> Result<Clock, CommandError> {
+        Ok(Clock::new(self.start, self.fps)?)
     }
 }
 
 impl Render {
     fn run(self) -> Result<(), CommandError> {
-        let mut scene = load(self.scene)?;
+        let mut scene = self.scene.load()?;
         let camera = &mut scene.camera;
         if let Some(eye) = self.eye {
             for (look, (new, old)) in camera.look.iter_mut().zip(eye.iter().zip(camera.eye)) {
@@ -91,34 +164,66 @@ impl Render {
         }
         camera.look = self.look.unwrap_or(camera.look);
         if camera.look == camera.eye {
-            return Err(CommandError::Usage(
-                "--look is the same point as --eye: there is no direction".to_owned(),
-            ));
+            let [x, y, z] = camera.eye;
+            return Err(CommandError::Usage(format!(
+                "--look and --eye are both {x},{y},{z}: there is no direction to look in"
+            )));
         }
-        commands::render(
-            &scene,
-            &RenderOptions {
-                out: self.out,
-                frames: self.frames.frames,
-                fps: self.frames.fps,
-                start: self.frames.start,
-                size: self.size,
-                stereo: self.stereo,
-                look: self.debug.unwrap_or_default(),
-                device: self.device,
-                validate: self.validate,
-                threads: self.threads,
-                cache: cache_folder(),
-            },
-        )
+        let options = RenderOptions {
+            out: self.out,
+            frames: self.timeline.frames,
+            clock: self.timeline.clock()?,
+            size: self.size,
+            stereo: self.stereo,
+            look: self.debug.unwrap_or_default(),
+            device: self.device,
+            validate: self.validate,
+            threads: self.threads,
+            cache: cache_folder(),
+        };
+        commands::render(&scene, &options)
     }
 }
 
-fn load(scene: Option<PathBuf>) -> Result<Scene, CommandError> {
-    Ok(match scene {
-        Some(file) => Scene::load(file)?,
-        None => Scene::flagship()?,
-    })
+impl Bake {
+    fn run(self) -> Result<(), CommandError> {
+        let scene = self.scene.load()?;
+        let options = BakeOptions {
+            out: self.out,
+            frames: self.timeline.frames,
+            clock: self.timeline.clock()?,
+            format: self.format,
+            threads: self.threads,
+        };
+        let report = commands::bake(&scene, &options)?;
+        eprintln!("{} files written, {} were there already", report.written, report.kept);
+        Ok(())
+    }
+}
+
+impl Query {
+    fn run(self, order: &[String]) -> Result<(), CommandError> {
+        let (mut at, mut rest) = (self.at.into_iter(), self.rest.into_iter());
+        // clap sorts values by option; answers come in the order of the questions.
+        let points: Vec<Point> = order
+            .iter()
+            .filter_map(|word| match word.split('=').next() {
+                Some("--at") => at.next().map(|point| Point::At(point.0)),
+                Some("--rest") => rest.next().map(|point| Point::Rest(point.0)),
+                _ => None,
+            })
+            .collect();
+        if points.is_empty() {
+            return Err(CommandError::Usage("no point to ask about: give --at X,Z or --rest X,Z".to_owned()));
+        }
+        if !(-1e9..=1e9).contains(&self.time) {
+            return Err(CommandError::Usage(format!(
+                "--time {} is out of range: -1e9 to 1e9 seconds",
+                self.time
+            )));
+        }
+        Ok(commands::query(&self.scene.load()?, self.time, &points, BufWriter::new(stdout().lock()))?)
+    }
 }
 
 /// Where compiled pipelines are kept: the user's cache folder, if there is one.
@@ -128,53 +233,19 @@ fn cache_folder() -> Option<PathBuf> {
     Some(base.join("swell"))
 }
 
-fn number(text: &str) -> Result<f64, String> {
-    text.trim()
-        .parse()
-        .ok()
-        .filter(|value: &f64| value.is_finite())
-        .ok_or_else(|| format!("{text:?} is not a number"))
-}
-
 /// Far enough for any voyage, and f64 still resolves micrometres there.
 const FARTHEST: f64 = 1e9;
 
 fn point(text: &str) -> Result<[f64; 3], String> {
-    let numbers: Vec<f64> = text.split(',').map(number).collect::<Result<_, _>>()?;
-    if let Some(far) = numbers.iter().find(|value| value.abs() > FARTHEST) {
-        return Err(format!("{far} is out of range: -1e9 to 1e9 metres"));
-    }
-    numbers.try_into().map_err(|_| "wanted three numbers: X,Y,Z".to_owned())
-}
-
-fn seconds(text: &str) -> Result<f64, String> {
-    let value = number(text)?;
-    if value.abs() <= FARTHEST { Ok(value) } else { Err("out of range: -1e9 to 1e9 seconds".to_owned()) }
-}
-
-fn frames_a_second(text: &str) -> Result<f64, String> {
-    let value = number(text)?;
-    if (0.001..=10_000.0).contains(&value) {
-        Ok(value)
-    } else {
-        Err("out of range: 0.001 to 10000".to_owned())
-    }
+    let number = |text: &str| text.trim().parse().ok().filter(|value: &f64| value.abs() <= FARTHEST);
+    let numbers: Option<Vec<f64>> = text.split(',').map(number).collect();
+    numbers
+        .and_then(|numbers| numbers.try_into().ok())
+        .ok_or_else(|| "wanted X,Y,Z: three numbers of metres, -1e9 to 1e9".to_owned())
 }
 
 fn picture_size(text: &str) -> Result<[u32; 2], String> {
     let side = |text: &str| text.parse().ok().filter(|side| (1..=16384).contains(side));
     let sides = text.split_once('x').and_then(|(width, height)| Some([side(width)?, side(height)?]));
     sides.ok_or_else(|| "wanted WIDTHxHEIGHT, each 1 to 16384".to_owned())
-}
-
-fn frame_range(text: &str) -> Result<std::ops::Range<u64>, String> {
-    const MOST: u64 = 10_000_000;
-    let frame = |text: &str| text.parse().ok().filter(|frame| *frame <= MOST);
-    let range = match text.split_once("..") {
-        Some((first, end)) => frame(first).zip(frame(end)).map(|(first, end)| first..end),
-        None => frame(text).map(|count| 0..count),
-    };
-    range
-        .filter(|range| range.start < range.end)
-        .ok_or_else(|| format!("wanted N or A..B with A below B, 1 to {MOST} frames"))
 }

@@ -7,7 +7,9 @@ use std::process::ExitCode;
 
 fn main() -> ExitCode {
     // clap itself answers --help with status 0 and a wrong command line with status 2.
-    match cli::Arguments::parse().run() {
+    let arguments = cli::Arguments::parse();
+    let order: Vec<String> = std::env::args().skip(1).collect();
+    match arguments.run(&order) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
             eprintln!("swell: {error}");

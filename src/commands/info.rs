@@ -1,50 +1,125 @@
-//! What `swell info` tells about a scene.
+//! `swell info`: the machine's Vulkan devices, and the scene in a few numbers.
+
+use super::{CommandError, SceneSummary};
+use crate::gpu::{GpuError, Instance, PhysicalDevice, Validation, version};
+use crate::host::HostError;
 use crate::scene::Scene;
 use serde::Serialize;
+use std::io::{self, Write};
 
-/// A scene in a few numbers.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct SceneSummary {
-    /// Four standard deviations of the height, metres: close to the mean of the highest third of the waves.
-    pub significant_wave_height: f64,
-    /// Largest height culling allows for, metres.
-    pub max_height: Option<f64>,
-    /// Largest horizontal displacement culling allows for, metres.
-    pub reach: f64,
-    /// Patch size in metres and resolution of each cascade.
-    pub cascades: Vec<CascadeSummary>,
+#[derive(Serialize)]
+struct Report<'a> {
+    swell: &'static str,
+    devices: Vec<DeviceSummary>,
+    /// Why there is no usable device, where there is none.
+    problem: Option<String>,
+    scene: &'a SceneSummary,
 }
 
-/// A cascade in a few numbers.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct CascadeSummary {
-    /// Side of the patch, metres.
-    pub patch_size: f64,
-    /// Grid points along a side.
-    pub resolution: usize,
-    /// Smallest wave number carried, rad/m.
-    pub from: f64,
-    /// Wave number at which the cascade ends, rad/m: its band's end, or its grid's Nyquist number where that is less.
-    pub to: f64,
+#[derive(Serialize)]
+struct DeviceSummary {
+    name: String,
+    kind: String,
+    driver: String,
+    vulkan: String,
+    /// What Swell needs and this device has not; empty for a usable one.
+    lacks: Vec<String>,
+    wireframe: bool,
+    /// The one that is used when none is named.
+    chosen: bool,
+    /// Optional extensions that Swell knows of.
+    extensions: Vec<Extension>,
 }
 
-impl SceneSummary {
-    /// Sums up `scene`.
-    pub fn new(scene: &Scene) -> Self {
-        let cascades = scene.sea.cascades.iter().map(|cascade| {
-            let nyquist = std::f64::consts::PI * cascade.resolution as f64 / cascade.patch_size;
-            CascadeSummary {
-                patch_size: cascade.patch_size,
-                resolution: cascade.resolution,
-                from: cascade.band[0],
-                to: cascade.band[1].min(nyquist),
-            }
-        });
-        Self {
-            significant_wave_height: 4.0 * scene.sea.expected_rms_height(),
-            max_height: scene.lod.max_height,
-            reach: scene.lod.reach,
-            cascades: cascades.collect(),
+#[derive(Serialize)]
+struct Extension {
+    name: &'static str,
+    found: bool,
+}
+
+/// Extensions Swell uses where they are, or will.
+const KNOWN: [&str; 5] = [
+    "VK_KHR_driver_properties",
+    "VK_KHR_swapchain",
+    "VK_EXT_fragment_density_map",
+    "VK_KHR_fragment_shading_rate",
+    "VK_KHR_external_semaphore_fd",
+];
+
+/// Tells about devices and `scene` on `out`, as text or as JSON.
+///
+/// # Errors
+/// No usable device: told on `out` like everything else, and returned so that scripts can see it.
+pub fn info(scene: &Scene, json: bool, mut out: impl Write) -> Result<(), CommandError> {
+    let scene = SceneSummary::new(scene);
+    let (devices, problem) = match devices() {
+        Ok((devices, problem)) => (devices, problem),
+        Err(problem) => (Vec::new(), Some(problem)),
+    };
+    let report = Report {
+        swell: env!("CARGO_PKG_VERSION"),
+        devices,
+        problem: problem.as_ref().map(ToString::to_string),
+        scene: &scene,
+    };
+    let written = if json {
+        serde_json::to_writer_pretty(&mut out, &report).map_err(io::Error::from).and_then(|()| writeln!(out))
+    } else {
+        write_text(&report, &mut out)
+    };
+    written.map_err(CommandError::Answer)?;
+    problem.map_or(Ok(()), |problem| Err(HostError::from(problem).into()))
+}
+
+type Devices = (Vec<DeviceSummary>, Option<GpuError>);
+
+fn devices() -> Result<Devices, GpuError> {
+    let instance = Instance::new(Validation::Off, &[])?;
+    let all = PhysicalDevice::all(&instance)?;
+    let chosen = PhysicalDevice::choose(&instance, None);
+    let summary = |device: PhysicalDevice| DeviceSummary {
+        chosen: chosen.as_ref().is_ok_and(|chosen| chosen.raw == device.raw),
+        kind: format!("{:?}", device.kind).to_lowercase(),
+        vulkan: version(device.api_version),
+        extensions: KNOWN
+            .map(|name| Extension { name, found: device.extensions.iter().any(|have| have == name) })
+            .into(),
+        name: device.name,
+        driver: device.driver,
+        lacks: device.lacks,
+        wireframe: device.wireframe,
+    };
+    let devices = all.into_iter().map(summary).collect();
+    Ok((devices, chosen.err()))
+}
+
+fn write_text(report: &Report<'_>, out: &mut impl Write) -> io::Result<()> {
+    writeln!(out, "swell {}", report.swell)?;
+    for device in &report.devices {
+        let mark = if device.chosen { "*" } else { " " };
+        writeln!(
+            out,
+            "{mark} {} ({}), driver {}, Vulkan {}",
+            device.name, device.kind, device.driver, device.vulkan
+        )?;
+        for lack in &device.lacks {
+            writeln!(out, "    lacks {lack}")?;
+        }
+        for extension in &device.extensions {
+            writeln!(out, "    {} {}", if extension.found { "found  " } else { "missing" }, extension.name)?;
         }
     }
+    let scene = report.scene;
+    writeln!(out, "scene: waves of {:.2} m (significant height)", scene.significant_wave_height)?;
+    for cascade in &scene.cascades {
+        writeln!(
+            out,
+            "    patch of {} m, {} points a side: wavelengths {:.3} to {:.1} m",
+            cascade.patch_size,
+            cascade.resolution,
+            std::f64::consts::TAU / cascade.to,
+            std::f64::consts::TAU / cascade.from.max(std::f64::consts::TAU / cascade.patch_size)
+        )?;
+    }
+    Ok(())
 }

@@ -1,10 +1,20 @@
 //! The jobs of the command line, as functions: each takes a scene and plain options.
 
+pub mod bake;
+pub mod frames;
+mod info;
 mod progress;
+pub mod query;
 mod render;
+mod scene_summary;
 
+pub use bake::{BakeError, BakeOptions, BakeReport, bake};
+pub use frames::{Clock, Frames, FramesError};
+pub use info::info;
 pub use progress::Progress;
+pub use query::{QueryError, query};
 pub use render::{RenderOptions, render};
+pub use scene_summary::SceneSummary;
 
 use crate::host::HostError;
 use crate::output::OutputError;
@@ -19,12 +29,24 @@ pub enum CommandError {
     /// The scene file is wrong.
     #[error(transparent)]
     Scene(#[from] SceneError),
+    /// Frames or times that make no animation.
+    #[error(transparent)]
+    Frames(#[from] FramesError),
+    /// Baking failed.
+    #[error(transparent)]
+    Bake(#[from] BakeError),
+    /// A query failed.
+    #[error(transparent)]
+    Query(#[from] QueryError),
     /// Drawing failed.
     #[error(transparent)]
     Host(#[from] HostError),
     /// A file could not be written.
     #[error(transparent)]
     Output(#[from] OutputError),
+    /// The answer could not be written.
+    #[error("cannot write the answer: {0}")]
+    Answer(std::io::Error),
     /// The validation layers had something to say.
     #[error("the validation layers sent {count} messages (above)")]
     Validation {
@@ -37,7 +59,7 @@ impl CommandError {
     /// 2 where the command line or the scene file is wrong, 1 where the work failed.
     pub const fn exit_status(&self) -> u8 {
         match self {
-            Self::Usage(_) | Self::Scene(_) => 2,
+            Self::Usage(_) | Self::Scene(_) | Self::Frames(_) => 2,
             _ => 1,
         }
     }

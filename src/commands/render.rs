@@ -1,12 +1,11 @@
 //! `swell render`: a scene into pictures.
 
-use super::{CommandError, Progress};
+use super::{Clock, CommandError, Frames, Progress};
 use crate::draw::Look;
 use crate::gpu::Validation;
 use crate::host::{Finished, Headless, HeadlessSettings, HostError, cpu_time};
 use crate::output::{OutputError, atomic::write_whole, exr, png};
 use crate::scene::Scene;
-use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, Sender, SyncSender, channel, sync_channel};
 use std::time::{Duration, Instant};
@@ -17,12 +16,10 @@ use std::{fs, thread};
 pub struct RenderOptions {
     /// A folder for `frame_0000.png` and so on, or one picture (`.png`, or `.exr` with `--debug height`).
     pub out: PathBuf,
-    /// Frame numbers, half open.
-    pub frames: Range<u64>,
-    /// Frames a second.
-    pub fps: f64,
-    /// Time of frame 0, seconds.
-    pub start: f64,
+    /// Which frames.
+    pub frames: Frames,
+    /// When they are.
+    pub clock: Clock,
     /// Pixels of one view.
     pub size: [u32; 2],
     /// Both eyes, side by side.
@@ -65,9 +62,8 @@ pub fn render(scene: &Scene, options: &RenderOptions) -> Result<(), CommandError
         threads: options.threads,
         cache: options.cache.clone(),
     };
-    #[expect(clippy::cast_precision_loss, reason = "frame numbers")]
-    let times: Vec<f64> = options.frames.clone().map(|i| options.start + i as f64 / options.fps).collect();
-    let mut host = Headless::new(scene, &settings, times.first().copied().unwrap_or(options.start))?;
+    let times: Vec<f64> = options.frames.indices().map(|frame| options.clock.time(frame)).collect();
+    let mut host = Headless::new(scene, &settings, times[0])?;
     let mut cost = Cost::default();
     let mut progress = Progress::new("drawing", times.len() as u64);
     let writer = Writer { options, format };
@@ -113,7 +109,7 @@ enum Format {
 
 impl Format {
     fn of(options: &RenderOptions) -> Result<Self, CommandError> {
-        let single = options.frames.end - options.frames.start == 1;
+        let single = options.frames.count() == 1;
         let usage =
             |problem: &str| Err(CommandError::Usage(format!("--out {}: {problem}", options.out.display())));
         match options.out.extension().and_then(|extension| extension.to_str()) {
@@ -138,7 +134,7 @@ impl Writer<'_> {
         for (index, pixels) in queue {
             match self.format {
                 Format::Frames => {
-                    let number = self.options.frames.start + index as u64;
+                    let number = self.options.frames.indices().start + index as u64;
                     self.picture(&self.options.out.join(format!("frame_{number:04}.png")), &pixels)?;
                 }
                 Format::Picture => self.picture(&self.options.out, &pixels)?,
