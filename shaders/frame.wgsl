@@ -29,7 +29,8 @@ struct Frame {
     sun: vec4f,
     // rgb: illuminance at right angles to the sun.
     sun_light: vec4f,
-    // rgb: illuminance of the sea plane by the sky alone.
+    // rgb: illuminance of the sea plane by the sky alone; w: the water's own squared roughness, as often as the sum
+    // over cascades counts it too much.
     sky_light: vec4f,
     // rgb: diffuse reflectance of deep water; w: factor on the slopes.
     deep: vec4f,
@@ -58,6 +59,8 @@ struct Frame {
 @group(0) @binding(10) var foam_pattern: texture_2d<f32>;
 @group(0) @binding(11) var tiling: sampler;
 @group(0) @binding(12) var clamped: sampler;
+// Repeats, and keeps detail at grazing angles.
+@group(0) @binding(13) var oblique: sampler;
 
 // From a direction or position along a cascade's axes (u, v) to the world's (x, z); docs/conventions.md.
 fn to_world(uv: vec2f, axes: vec2f) -> vec2f {

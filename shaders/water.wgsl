@@ -28,15 +28,15 @@ fn add_gradient(surface: ptr<function, Surface>, texel: vec4f, cascade: u32) {
 
 fn surface_at(rest: vec2f) -> Surface {
     var s: Surface;
-    add_gradient(&s, textureSample(gradient_0, tiling, map_coordinates(rest, 0u)), 0u);
+    add_gradient(&s, textureSample(gradient_0, oblique, map_coordinates(rest, 0u)), 0u);
     if CASCADES > 1u {
-        add_gradient(&s, textureSample(gradient_1, tiling, map_coordinates(rest, 1u)), 1u);
+        add_gradient(&s, textureSample(gradient_1, oblique, map_coordinates(rest, 1u)), 1u);
     }
     if CASCADES > 2u {
-        add_gradient(&s, textureSample(gradient_2, tiling, map_coordinates(rest, 2u)), 2u);
+        add_gradient(&s, textureSample(gradient_2, oblique, map_coordinates(rest, 2u)), 2u);
     }
     if CASCADES > 3u {
-        add_gradient(&s, textureSample(gradient_3, tiling, map_coordinates(rest, 3u)), 3u);
+        add_gradient(&s, textureSample(gradient_3, oblique, map_coordinates(rest, 3u)), 3u);
     }
     s.slope *= frame.deep.w;
     return s;
@@ -71,11 +71,29 @@ fn sun_lobe(n: vec3f, v: vec3f, l: vec3f, alpha_squared: f32) -> f32 {
     return distribution * 0.5 / max(smith, 1.0e-4) * fresnel(dot(v, h)) * nl;
 }
 
-// How much of the surface is white: the compression's range, broken up by the pattern.
-fn foam_cover(rest: vec2f, compression: f32) -> f32 {
-    let amount = saturate((compression - frame.foam_range.x) * frame.foam_range.y);
+// Compression that the displacement maps remember: finer than the mesh could carry it here.
+fn remembered(rest: vec2f) -> f32 {
+    var sum = textureSample(displacement_0, tiling, map_coordinates(rest, 0u)).w;
+    if CASCADES > 1u {
+        sum += textureSample(displacement_1, tiling, map_coordinates(rest, 1u)).w;
+    }
+    if CASCADES > 2u {
+        sum += textureSample(displacement_2, tiling, map_coordinates(rest, 2u)).w;
+    }
+    if CASCADES > 3u {
+        sum += textureSample(displacement_3, tiling, map_coordinates(rest, 3u)).w;
+    }
+    return sum;
+}
+
+// Colour of foam (its albedo) and in w how much of the surface it hides: the compression's range, broken up by the
+// pattern. From afar the pattern's mips are grey, and the edge is soft, so that the mean cover stays as it is.
+fn foam_at(rest: vec2f, compression: f32, distance: f32) -> vec4f {
+    let amount = smoothstep(0.0, 1.0, (compression - frame.foam_range.x) * frame.foam_range.y);
     let pattern = textureSample(foam_pattern, tiling, rest * frame.foam_range.z).r;
-    return smoothstep(1.0 - amount, 1.35 - amount, pattern) * saturate(amount * 4.0);
+    let soft = mix(0.14, 0.5, saturate(distance * 0.006));
+    let cover = saturate((pattern + amount - 1.0) / (2.0 * soft) + amount) * saturate(amount * 8.0);
+    return vec4f(frame.foam.rgb * (0.7 + 0.3 * pattern), cover);
 }
 
 fn shade(in: Varyings) -> vec3f {
@@ -84,7 +102,7 @@ fn shade(in: Varyings) -> vec3f {
     let v = to_eye / distance;
     let surface = surface_at(in.rest);
     let n = normalize(vec3f(-surface.slope.x, 1.0, -surface.slope.y));
-    let alpha_squared = clamp(surface.alpha_squared, 0.0004, 0.5);
+    let alpha_squared = clamp(surface.alpha_squared - frame.sky_light.w, 0.0004, 0.5);
     let seen = visible_normal(n, v, 0.5 * alpha_squared);
     let l = frame.sun.xyz;
 
@@ -101,8 +119,8 @@ fn shade(in: Varyings) -> vec3f {
     let through = frame.scatter.rgb * frame.sun_light.rgb
         * (crest * towards_sun * towards_sun * facing * facing * facing);
 
-    let white = foam_cover(in.rest, in.compression);
+    let white = foam_at(in.rest, remembered(in.rest), distance);
     let water = mix(below + through, reflected, reflectance) + glitter;
-    let color = mix(water, frame.foam.rgb * daylight / PI, white);
+    let color = mix(water, white.rgb * daylight / PI, white.w);
     return tone_map(haze(color, v, distance));
 }

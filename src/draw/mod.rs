@@ -3,6 +3,7 @@
 //! Nothing here knows what it draws to or when: a host (`host::headless` so far) brings a target, the eyes and the maps.
 
 pub mod camera;
+mod clouds;
 mod daylight;
 mod debug_view;
 mod foam_pattern;

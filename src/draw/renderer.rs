@@ -46,7 +46,7 @@ pub struct Renderer {
     textures: Vec<SeaTextures>,
     bindings: Bindings,
     /// Kept for the descriptor sets, which refer to them.
-    _shared: (Image, Image, Sampler, Sampler),
+    _shared: (Image, Image, [Sampler; 3]),
 }
 
 impl Renderer {
@@ -93,8 +93,9 @@ impl Renderer {
                 5..=8 => Resource::Texture(&textures.gradient[(binding as usize - 5).min(cascades - 1)]),
                 9 => Resource::Texture(&shared.0),
                 10 => Resource::Texture(&shared.1),
-                11 => Resource::Sampler(&shared.2),
-                _ => Resource::Sampler(&shared.3),
+                11 => Resource::Sampler(&shared.2[0]),
+                12 => Resource::Sampler(&shared.2[1]),
+                _ => Resource::Sampler(&shared.2[2]),
             });
         }
         Ok(Self {
@@ -149,11 +150,11 @@ impl Renderer {
     }
 }
 
-/// The sky's cube, the foam's pattern, and a tiling and a clamping sampler.
+/// The sky's cube, the foam's pattern, and the samplers: tiling, clamping, and tiling at grazing angles.
 fn shared_textures(
     device: &Arc<Device>,
     sky_map: &SkyMap,
-) -> Result<(Image, Image, Sampler, Sampler), GpuError> {
+) -> Result<(Image, Image, [Sampler; 3]), GpuError> {
     let cube = ImageInfo {
         layers: 6,
         view: vk::ImageViewType::CUBE,
@@ -165,7 +166,8 @@ fn shared_textures(
         ImageInfo::texture(foam_pattern::SIZE as u32, foam_pattern::MIPS as u32, vk::Format::R8_UNORM);
     let foam = Image::new(device, "foam pattern", pattern)?;
     upload_image(device, &foam, &foam_pattern::texels(), 1)?;
-    let tiling = Sampler::new(device, "tiling", vk::SamplerAddressMode::REPEAT, 4.0)?;
+    let tiling = Sampler::new(device, "tiling", vk::SamplerAddressMode::REPEAT, 1.0)?;
     let clamped = Sampler::new(device, "clamped", vk::SamplerAddressMode::CLAMP_TO_EDGE, 1.0)?;
-    Ok((sky, foam, tiling, clamped))
+    let oblique = Sampler::new(device, "oblique", vk::SamplerAddressMode::REPEAT, 4.0)?;
+    Ok((sky, foam, [tiling, clamped, oblique]))
 }

@@ -1,5 +1,6 @@
 //! The sky as a cube of half floats with mips, from the daylight model or from a file.
 
+use super::clouds::Clouds;
 use super::daylight::Daylight;
 use crate::scene::{SkySettings, SkySource};
 use glam::Vec3;
@@ -7,10 +8,13 @@ use half::f16;
 use rayon::prelude::*;
 use std::path::{Path, PathBuf};
 
-/// Texels along a face's side: 0.7 degrees each at the middle, and daylight is smooth.
-pub const FACE: usize = 128;
+/// Texels along a face's side: 0.35 degrees each at the middle, fine enough for clouds.
+pub const FACE: usize = 256;
 /// Mip levels of the cube.
 pub const MIPS: usize = FACE.ilog2() as usize + 1;
+
+/// Luminance of linear Rec. 709.
+const LUMINANCE: Vec3 = Vec3::new(0.2126, 0.7152, 0.0722);
 
 /// A sky file that cannot be used.
 #[derive(Debug, thiserror::Error)]
@@ -61,18 +65,25 @@ impl SkyMap {
         let sun = glam::DVec3::new(azimuth.cos() * level, elevation.sin(), -azimuth.sin() * level).as_vec3();
         // The sun shines through the same air whether or not the sky behind it comes from a file.
         let turbidity = match settings.source {
-            SkySource::Daylight { turbidity } => turbidity,
+            SkySource::Daylight { turbidity, .. } => turbidity,
             SkySource::Cubemap { .. } => 3.0,
         };
-        #[expect(clippy::cast_possible_truncation, reason = "a factor of a scene file")]
+        #[expect(clippy::cast_possible_truncation, reason = "factors of a scene file")]
         let (turbidity, strength) = (turbidity as f32, settings.sun_intensity as f32);
         let daylight = Daylight::new(sun, turbidity);
         let top: Vec<Vec3> = match &settings.source {
-            SkySource::Daylight { .. } => bake(|direction| {
-                // What a mirror facing down would see is sea: the horizon's light, getting darker downwards.
-                let sea = 1.0 - 0.8 * (-4.0 * direction.y).clamp(0.0, 1.0);
-                daylight.radiance(direction) * sea
-            }),
+            SkySource::Daylight { clouds, .. } => {
+                let sun_light = daylight.sun_light() * strength;
+                // Droplets scatter all colours alike: clouds are as bright as the sky around them, and grey.
+                let around = daylight.radiance(Vec3::new(-sun.x, 0.5, -sun.z).normalize());
+                let ambient = 1.3 * around.lerp(Vec3::splat(around.dot(LUMINANCE)), 0.85);
+                let clouds = Clouds::new(*clouds as f32, sun, sun_light, ambient);
+                bake(|direction| {
+                    // What a mirror facing down would see is sea: the horizon's light, getting darker downwards.
+                    let sea = 1.0 - 0.8 * (-4.0 * direction.y).clamp(0.0, 1.0);
+                    clouds.over(direction, daylight.radiance(direction) * sea)
+                })
+            }
             SkySource::Cubemap { file } => Picture::open(file)?.bake(),
         };
         let sky_light = illuminance(&top);

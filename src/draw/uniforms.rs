@@ -68,13 +68,16 @@ impl Frame {
         let color = |c: [f32; 3], w: f64| Vec3::from(c).extend(w as f32);
         let (water, foam) = (&scene.water, &scene.sea.foam);
         let height = rms_height.max(0.01);
+        // Every cascade's map holds the water's own roughness; the surface has it once.
+        let own = scene.sea.cascades.iter().map(|cascade| cascade.roughness.powi(2));
+        let repeated = own.clone().sum::<f64>() - own.fold(0.0, f64::max);
         // The disc's radiance is far beyond white: limited, so that resolving samples leaves its edge round.
         let disc = (1.0 / (std::f32::consts::PI * SUN_RADIUS * SUN_RADIUS)).min(60.0);
         let texels_per_radian = sky_map::FACE as f32 / std::f32::consts::FRAC_PI_2;
         Self {
             sun: sky.sun.extend(SUN_RADIUS.cos()),
             sun_light: sky.sun_light.extend(disc),
-            sky_light: sky.sky_light.extend(0.0),
+            sky_light: sky.sky_light.extend(repeated as f32),
             deep: color(water.deep_color, water.detail),
             scatter: color(water.scatter_color, water.scatter / height),
             foam: color(water.foam_color, 0.0),

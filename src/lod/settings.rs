@@ -73,7 +73,7 @@ impl LodSettings {
     /// [`LodError::OutOfRange`] for the first one that is not.
     pub fn check(&self) -> Result<(), LodError> {
         check_range("size", self.size, 256.0, 8192.0)?;
-        check_range("levels", f64::from(self.level_count()), 1.0, 8.0)?;
+        check_range("levels", f64::from(self.level_count()), 1.0, 10.0)?;
         check_range("max_height", self.height_bound(), 0.0, 1.0e4)?;
         check_range("reach", self.reach, 0.0, 1.0e4)?;
         check_range("skirt_extent", self.skirt_extent, 1.0, 1.0e4)

@@ -181,7 +181,7 @@ fn read_sky(reader: &mut Reader<'_>, root: &DeTable<'_>, file: &str) -> SkySetti
         item.map_or(0..0, |item| item.span())
     };
     let source = match (sky.model, sky.file) {
-        (SkyModel::Daylight, _) => SkySource::Daylight { turbidity: sky.turbidity },
+        (SkyModel::Daylight, _) => SkySource::Daylight { turbidity: sky.turbidity, clouds: sky.clouds },
         (SkyModel::Cubemap, Some(name)) => {
             let path = Path::new(file).parent().unwrap_or(Path::new("")).join(&name);
             if !path.is_file() {
@@ -193,7 +193,7 @@ fn read_sky(reader: &mut Reader<'_>, root: &DeTable<'_>, file: &str) -> SkySetti
         (SkyModel::Cubemap, None) => {
             let problem = "needs sky.file, the image to show".to_owned();
             reader.contradiction("sky.model".to_owned(), span_of("model"), problem);
-            SkySource::Daylight { turbidity: sky.turbidity }
+            SkySource::Daylight { turbidity: sky.turbidity, clouds: sky.clouds }
         }
     };
     SkySettings {

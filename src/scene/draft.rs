@@ -27,6 +27,7 @@ pub(super) enum SkyModel {
 pub(super) struct SkyDraft {
     pub model: SkyModel,
     pub turbidity: f64,
+    pub clouds: f64,
     pub file: Option<String>,
     pub sun_azimuth: f64,
     pub sun_elevation: f64,
@@ -56,6 +57,7 @@ impl Blank for CascadeDraft {
             choppiness: 0.0,
             small_wave_suppression: 0.0,
             roughness: 0.0,
+            breaking: 0.0,
             amplitude: 0.0,
             fetch: 0.0,
             peak_enhancement: 0.0,
@@ -98,6 +100,7 @@ impl Blank for SkyDraft {
     const BLANK: Self = Self {
         model: SkyModel::Daylight,
         turbidity: 0.0,
+        clouds: 0.0,
         file: None,
         sun_azimuth: 0.0,
         sun_elevation: 0.0,

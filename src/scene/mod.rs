@@ -92,6 +92,8 @@ pub enum SkySource {
     Daylight {
         /// Ratio of the optical thickness of haze and air to that of air alone.
         turbidity: f64,
+        /// Share of the sky that clouds cover, 0..=1.
+        clouds: f64,
     },
     /// Six square faces in one image file: a vertical cross, a 6x1 strip (+X -X +Y -Y +Z -Z), or an equirectangular panorama.
     Cubemap {

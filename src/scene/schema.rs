@@ -105,6 +105,14 @@ pub(super) static SEA_AND_CASCADE: &[Key<CascadeDraft>] = &[
         "Roughness of the water at scales below the map.",
     ),
     number(
+        "breaking",
+        "",
+        [0.0, 1.0],
+        1.0,
+        |c, v| c.settings.breaking = v,
+        "Share of the compression that counts for foam: below 1 for ripples, which are steep and do not break.",
+    ),
+    number(
         "amplitude",
         "",
         [0.0, 1000.0],
@@ -254,6 +262,14 @@ pub(super) static SKY: &[Key<SkyDraft>] = &[
         3.0,
         |s, v| s.turbidity = v,
         "Haze of the daylight: 1.7 very clear, 10 hazy.",
+    ),
+    number(
+        "clouds",
+        "",
+        [0.0, 1.0],
+        0.0,
+        |s, v| s.clouds = v,
+        "Share of the daylight's sky that clouds cover.",
     ),
     Key {
         name: "file",

@@ -111,11 +111,12 @@ impl Cascade {
         let n = self.settings.resolution;
         let field = Field { du: &maps.du, height: &maps.height, dv: &maps.dv };
         let per_difference = self.params.per_difference;
+        let breaking = self.settings.breaking as f32;
         self.memory.texels.par_chunks_mut(ROWS * n).enumerate().for_each(|(batch, memory)| {
             for (row, memory) in memory.chunks_exact_mut(n).enumerate() {
                 gradient::jacobian_row(field, n, batch * ROWS + row, per_difference, |column, jacobian| {
                     for (memory, jacobian) in memory[column..].iter_mut().zip(jacobian) {
-                        *memory = foam::fade(*memory, decay, foam::compression(jacobian));
+                        *memory = foam::fade(*memory, decay, foam::compression(jacobian, breaking));
                     }
                 });
             }
@@ -157,6 +158,7 @@ impl Cascade {
         let params = &self.params;
         let field = Field { du: &maps.du, height: &maps.height, dv: &maps.dv };
         let (normals, texels) = (&mut self.normals[..n * n], &mut self.texels[..n * n]);
+        let breaking = self.settings.breaking as f32;
         normals
             .par_chunks_mut(ROWS * n)
             .zip(texels.par_chunks_mut(ROWS * n))
@@ -169,7 +171,7 @@ impl Cascade {
                     gradient::gradient_row(field, n, batch * ROWS + row, params, normals);
                 }
                 for (i, (texel, normal)) in texels.iter_mut().zip(&*normals).enumerate() {
-                    let mut compression = foam::compression(normal[3]);
+                    let mut compression = foam::compression(normal[3], breaking);
                     if let Some(foam) = foam {
                         compression = foam::fade(memory[i], foam.lost, compression);
                         if foam.keep {

@@ -7,10 +7,10 @@ pub const MAX_COMPRESSION: f32 = 2.0;
 /// Ticks of the memory per second, at least.
 const TICKS_PER_SECOND: f64 = 10.0;
 
-/// Compression 1 - J of a surface element, 0 where it is stretched, at most [`MAX_COMPRESSION`].
+/// Share `breaking` of the compression 1 - J of a surface element, 0 where it is stretched, at most [`MAX_COMPRESSION`].
 #[inline(always)]
-pub fn compression(jacobian: f32) -> f32 {
-    (1.0 - jacobian).clamp(0.0, MAX_COMPRESSION)
+pub fn compression(jacobian: f32, breaking: f32) -> f32 {
+    ((1.0 - jacobian) * breaking).clamp(0.0, MAX_COMPRESSION)
 }
 
 /// Foam cover, 0..=1, of a `compression` summed over cascades: smoothstep from the threshold over the width.

@@ -60,6 +60,8 @@ pub struct CascadeSettings {
     pub small_wave_suppression: f64,
     /// Roughness of the water itself at scales below the map, 0..=1, eq (49).
     pub roughness: f64,
+    /// Share of the cascade's compression that counts for foam, 0..=1: ripples are steep and do not break.
+    pub breaking: f64,
     /// Factor on every displacement.
     pub amplitude: f64,
     /// Distance over which the wind has blown, metres (JONSWAP, TMA).
@@ -119,6 +121,7 @@ impl Default for CascadeSettings {
             choppiness: 0.9,
             small_wave_suppression: 0.1,
             roughness: 0.1,
+            breaking: 1.0,
             amplitude: 1.0,
             fetch: 100_000.0,
             peak_enhancement: 3.3,
@@ -203,6 +206,7 @@ impl CascadeSettings {
             ("choppiness", self.choppiness, 0.0, 10.0, "0..=10"),
             ("small_wave_suppression", self.small_wave_suppression, 0.0, 1.0, "0..=1"),
             ("roughness", self.roughness, 0.0, 1.0, "0..=1"),
+            ("breaking", self.breaking, 0.0, 1.0, "0..=1"),
             ("amplitude", self.amplitude, 0.0, 1e6, "0..=1e6"),
             ("fetch", self.fetch, 1.0, 1e8, "1..=1e8 m"),
             ("peak_enhancement", self.peak_enhancement, 1.0, 10.0, "1..=10"),
