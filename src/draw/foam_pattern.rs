@@ -51,7 +51,6 @@ fn lace(x: usize, y: usize) -> f32 {
 #[expect(
     clippy::cast_precision_loss,
     clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
     clippy::cast_possible_wrap,
     reason = "small cell numbers"
 )]

@@ -82,7 +82,7 @@ impl Bindings {
             kinds,
             device: Arc::clone(device),
         };
-        // SAFETY (and below): the device lives; each structure refers to locals that live past the call.
+        // SAFETY: the device lives; each structure refers to locals that live past the call.
         bindings.set_layout =
             unsafe { device.raw.create_descriptor_set_layout(&info, None) }.doing("creating a set layout")?;
         let layouts = [bindings.set_layout];

@@ -79,7 +79,7 @@ impl PhysicalDevice {
     }
 
     fn describe(instance: &Instance, raw: vk::PhysicalDevice) -> Result<Self, GpuError> {
-        // SAFETY (all calls below): `raw` was enumerated from this living instance.
+        // SAFETY: `raw` was enumerated from this living instance.
         let basic = unsafe { instance.raw.get_physical_device_properties(raw) };
         let name = text(&basic.device_name);
         // SAFETY: as above.
