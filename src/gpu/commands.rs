@@ -7,21 +7,27 @@ use super::image::Image;
 use super::recorder::Recorder;
 use ash::vk;
 use gpu_allocator::MemoryLocation;
+use std::cell::Cell;
 use std::sync::Arc;
 
 /// Frames recorded while earlier ones are still drawn.
 pub const FRAMES_IN_FLIGHT: usize = 2;
 
 /// A pool, a buffer and the fence that tells when the buffer's work is done.
+///
+/// Dropping it waits for that work: owners declare it before the resources its work uses, so that it goes first.
 pub struct Commands {
     raw: vk::CommandBuffer,
     pool: vk::CommandPool,
     fence: vk::Fence,
+    /// Whether work was submitted that nobody has waited for; only then will the fence be signalled.
+    /// A cell also keeps the pool to one thread at a time, as Vulkan demands.
+    submitted: Cell<bool>,
     device: Arc<Device>,
 }
 
 impl Commands {
-    /// Makes all three; the fence starts signalled, so the first wait returns at once.
+    /// Makes all three, with nothing to wait for.
     ///
     /// # Errors
     /// Out of memory.
@@ -35,6 +41,7 @@ impl Commands {
             raw: vk::CommandBuffer::null(),
             pool,
             fence: vk::Fence::null(),
+            submitted: Cell::new(false),
             device: Arc::clone(device),
         };
         let allocate = vk::CommandBufferAllocateInfo::default().command_pool(pool).command_buffer_count(1);
@@ -42,9 +49,9 @@ impl Commands {
         let buffers =
             unsafe { device.raw.allocate_command_buffers(&allocate) }.doing("making a command buffer")?;
         commands.raw = buffers[0];
-        let signalled = vk::FenceCreateInfo::default().flags(vk::FenceCreateFlags::SIGNALED);
+        let info = vk::FenceCreateInfo::default();
         // SAFETY: the device lives.
-        commands.fence = unsafe { device.raw.create_fence(&signalled, None) }.doing("creating a fence")?;
+        commands.fence = unsafe { device.raw.create_fence(&info, None) }.doing("creating a fence")?;
         device.name(commands.raw, name);
         Ok(commands)
     }
@@ -54,8 +61,16 @@ impl Commands {
     /// # Errors
     /// The device was lost.
     pub fn wait(&self) -> Result<(), GpuError> {
-        // SAFETY: the fence is ours and was made signalled or submitted.
-        unsafe { self.device.raw.wait_for_fences(&[self.fence], true, u64::MAX) }.doing("waiting for a frame")
+        if !self.submitted.get() {
+            return Ok(());
+        }
+        let fences = [self.fence];
+        // SAFETY: the fence is ours and was handed to the queue; once it is signalled nothing uses it.
+        unsafe {
+            self.device.raw.wait_for_fences(&fences, true, u64::MAX).doing("waiting for a frame")?;
+            self.submitted.set(false);
+            self.device.raw.reset_fences(&fences).doing("resetting a fence")
+        }
     }
 
     /// Waits as [`Self::wait`] does, then starts recording anew.
@@ -81,24 +96,20 @@ impl Commands {
     /// # Errors
     /// The device was lost.
     pub fn submit(&self) -> Result<(), GpuError> {
-        let buffers = [self.raw];
-        let submits = [vk::SubmitInfo::default().command_buffers(&buffers)];
-        // SAFETY: recording was begun; the fence is signalled and not in use, as `begin` waited for it.
-        unsafe {
-            self.device.raw.end_command_buffer(self.raw).doing("ending a recording")?;
-            self.device.raw.reset_fences(&[self.fence]).doing("resetting a fence")?;
-            self.device.raw.queue_submit(self.device.queue, &submits, self.fence).doing("submitting a frame")
-        }
+        // SAFETY: recording was begun.
+        unsafe { self.device.raw.end_command_buffer(self.raw) }.doing("ending a recording")?;
+        self.device.submit(self.raw, self.fence)?;
+        self.submitted.set(true);
+        Ok(())
     }
 }
 
 impl Drop for Commands {
     fn drop(&mut self) {
-        // SAFETY: waits for the last submission; afterwards nothing uses pool or fence.
+        // A lost device has ended its work too.
+        let _lost = self.wait();
+        // SAFETY: as just waited for, nothing uses pool or fence; a null fence is ignored.
         unsafe {
-            if self.fence != vk::Fence::null() {
-                let _lost = self.device.raw.wait_for_fences(&[self.fence], true, u64::MAX);
-            }
             self.device.raw.destroy_fence(self.fence, None);
             self.device.raw.destroy_command_pool(self.pool, None);
         }

@@ -18,8 +18,8 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 pub struct Device {
     /// Device-level commands.
     pub raw: ash::Device,
-    /// The queue that draws and copies.
-    pub queue: vk::Queue,
+    /// The queue that draws and copies, for one thread at a time.
+    queue: Mutex<vk::Queue>,
     /// Its family.
     pub queue_family: u32,
     /// What was chosen, with its limits.
@@ -73,7 +73,7 @@ impl Device {
         let debug = instance.has_debug_utils().then(|| ext::debug_utils::Device::new(&instance.raw, &raw));
         Ok(Arc::new(Self {
             raw,
-            queue,
+            queue: Mutex::new(queue),
             queue_family,
             physical,
             cache,
@@ -111,13 +111,13 @@ impl Device {
         }
     }
 
-    /// Waits until the queue is empty. Only for shutting down and set-up, never inside a frame.
-    ///
-    /// # Errors
-    /// The device was lost.
-    pub fn wait_idle(&self) -> Result<(), GpuError> {
-        // SAFETY: one thread submits, so no other call uses the queue meanwhile.
-        unsafe { self.raw.device_wait_idle() }.doing("waiting for the device")
+    /// Hands recorded `commands` to the queue, which signals `fence` when they are done.
+    pub(super) fn submit(&self, commands: vk::CommandBuffer, fence: vk::Fence) -> Result<(), GpuError> {
+        let buffers = [commands];
+        let submits = [vk::SubmitInfo::default().command_buffers(&buffers)];
+        let queue = self.queue.lock().unwrap_or_else(PoisonError::into_inner);
+        // SAFETY: the lock keeps other threads from the queue; the commands are whole and the fence unsignalled.
+        unsafe { self.raw.queue_submit(*queue, &submits, fence) }.doing("submitting a frame")
     }
 
     fn allocator(&self) -> MutexGuard<'_, Allocator> {

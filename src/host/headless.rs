@@ -46,9 +46,10 @@ pub struct Finished<'a> {
 /// A renderer, its target and its sea.
 pub struct Headless {
     sea: SeaAhead,
+    /// Dropped before what their frames use, since dropping them waits for the frames.
+    commands: Vec<Commands>,
     renderer: Renderer,
     eyes: Vec<Eye>,
-    commands: Vec<Commands>,
     readback: Vec<Buffer>,
     target: Target,
     device: Arc<Device>,
@@ -87,7 +88,7 @@ impl Headless {
             #[expect(clippy::cast_precision_loss, reason = "picture sizes")]
             let aspect = settings.size[0] as f32 / settings.size[1] as f32;
             let eyes = draw::eyes(&scene.camera, aspect, settings.stereo);
-            Ok(Self { sea: joined(sea.join())??, renderer, eyes, commands, readback, target, device })
+            Ok(Self { sea: joined(sea.join())??, commands, renderer, eyes, readback, target, device })
         })
     }
 
