@@ -1,4 +1,7 @@
 //! Buffers.
+//!
+//! The allocator maps only memory that is host-coherent, so bytes written here need no flush and bytes read no
+//! invalidation: a submission, or a barrier to the host and a fence, is enough.
 
 use super::device::Device;
 use super::error::{Doing, GpuError};
@@ -36,10 +39,11 @@ impl Buffer {
         // SAFETY: the buffer is ours.
         let requirements = unsafe { device.raw.get_buffer_memory_requirements(raw) };
         let allocation = device.allocate(name, requirements, location, true)?;
+        // Kept before it is bound, so that a failure frees it.
+        let allocation = buffer.allocation.insert(allocation);
         // SAFETY: the memory is fresh, fits the requirements and is bound once.
         unsafe { device.raw.bind_buffer_memory(raw, allocation.memory(), allocation.offset()) }
             .doing("binding a buffer's memory")?;
-        buffer.allocation = Some(allocation);
         device.name(raw, name);
         Ok(buffer)
     }

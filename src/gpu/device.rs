@@ -58,18 +58,16 @@ impl Device {
         // SAFETY: the handle belongs to this instance and `info` refers to locals that live past the call.
         let raw =
             unsafe { instance.raw.create_device(physical.raw, &info, None) }.doing("creating the device")?;
+        let (allocator, cache) = match equip(&instance, &raw, &physical, cache_dir) {
+            Ok(equipment) => equipment,
+            Err(error) => {
+                // SAFETY: what failed left nothing behind on the device, and nobody else has it yet.
+                unsafe { raw.destroy_device(None) };
+                return Err(error);
+            }
+        };
         // SAFETY: the family was asked for with one queue.
         let queue = unsafe { raw.get_device_queue(queue_family, 0) };
-        let allocator = Allocator::new(&AllocatorCreateDesc {
-            instance: instance.raw.clone(),
-            device: raw.clone(),
-            physical_device: physical.raw,
-            debug_settings: AllocatorDebugSettings::default(),
-            buffer_device_address: false,
-            allocation_sizes: AllocationSizes::default(),
-        })
-        .map_err(|source| GpuError::Memory { what: "the allocator".to_owned(), source })?;
-        let cache = PipelineCache::open(&raw, &physical, cache_dir)?;
         let debug = instance.has_debug_utils().then(|| ext::debug_utils::Device::new(&instance.raw, &raw));
         Ok(Arc::new(Self {
             raw,
@@ -146,6 +144,25 @@ impl Device {
         // Freeing fails only for an allocation of another allocator; there is one here.
         let _foreign = self.allocator().free(allocation);
     }
+}
+
+/// What every device has: an allocator without memory so far, and the pipeline cache, the one Vulkan object, made last.
+fn equip(
+    instance: &Instance,
+    raw: &ash::Device,
+    physical: &PhysicalDevice,
+    cache_dir: Option<&Path>,
+) -> Result<(Allocator, PipelineCache), GpuError> {
+    let allocator = Allocator::new(&AllocatorCreateDesc {
+        instance: instance.raw.clone(),
+        device: raw.clone(),
+        physical_device: physical.raw,
+        debug_settings: AllocatorDebugSettings::default(),
+        buffer_device_address: false,
+        allocation_sizes: AllocationSizes::default(),
+    })
+    .map_err(|source| GpuError::Memory { what: "the allocator".to_owned(), source })?;
+    Ok((allocator, PipelineCache::open(raw, physical, cache_dir)?))
 }
 
 impl Drop for Device {

@@ -80,10 +80,11 @@ impl Image {
         // SAFETY: the image is ours.
         let requirements = unsafe { device.raw.get_image_memory_requirements(raw) };
         let allocation = device.allocate(name, requirements, MemoryLocation::GpuOnly, false)?;
+        // Kept before it is bound, so that a failure frees it.
+        let allocation = image.allocation.insert(allocation);
         // SAFETY: the memory is fresh, fits the requirements and is bound once.
         unsafe { device.raw.bind_image_memory(raw, allocation.memory(), allocation.offset()) }
             .doing("binding an image's memory")?;
-        image.allocation = Some(allocation);
         let view = vk::ImageViewCreateInfo::default()
             .image(raw)
             .view_type(info.view)
@@ -117,19 +118,24 @@ impl Image {
     pub fn copy_regions(&self, offset: u64, texel: u64, regions: &mut Vec<vk::BufferImageCopy>) {
         let mut at = offset;
         for mip in 0..self.info.mips {
-            let [width, height] = self.info.extent.map(|side| (side >> mip).max(1));
-            let layers = vk::ImageSubresourceLayers::default()
-                .aspect_mask(self.aspect())
-                .mip_level(mip)
-                .layer_count(self.info.layers);
-            regions.push(
-                vk::BufferImageCopy::default()
-                    .buffer_offset(at)
-                    .image_subresource(layers)
-                    .image_extent(vk::Extent3D { width, height, depth: 1 }),
-            );
+            let region = self.copy_region(mip, at);
+            let vk::Extent3D { width, height, .. } = region.image_extent;
             at += texel * u64::from(width) * u64::from(height) * u64::from(self.info.layers);
+            regions.push(region);
         }
+    }
+
+    /// A copy of all layers of one mip, to or from tightly packed bytes at `offset`.
+    pub(super) fn copy_region(&self, mip: u32, offset: u64) -> vk::BufferImageCopy {
+        let [width, height] = self.info.extent.map(|side| (side >> mip).max(1));
+        let layers = vk::ImageSubresourceLayers::default()
+            .aspect_mask(self.aspect())
+            .mip_level(mip)
+            .layer_count(self.info.layers);
+        vk::BufferImageCopy::default()
+            .buffer_offset(offset)
+            .image_subresource(layers)
+            .image_extent(vk::Extent3D { width, height, depth: 1 })
     }
 }
 

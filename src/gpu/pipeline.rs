@@ -4,8 +4,7 @@ use super::device::Device;
 use super::error::{Doing, GpuError};
 use super::recorder::Recorder;
 use super::target::Target;
-use ash::{util, vk};
-use std::io::Cursor;
+use ash::vk;
 use std::sync::Arc;
 
 /// How a pipeline treats depth.
@@ -143,8 +142,11 @@ struct Module<'a> {
 
 impl<'a> Module<'a> {
     fn new(device: &'a Device, spirv: &[u8]) -> Result<Self, GpuError> {
-        // Reading from memory fails only where the length is no multiple of four, which SPIR-V's always is.
-        let words = util::read_spv(&mut Cursor::new(spirv)).unwrap_or_default();
+        // The build wrote whole words, the lowest byte first; here they get the alignment that words need.
+        let words: Vec<u32> = spirv
+            .chunks_exact(4)
+            .map(|word| u32::from_le_bytes([word[0], word[1], word[2], word[3]]))
+            .collect();
         let info = vk::ShaderModuleCreateInfo::default().code(&words);
         // SAFETY: the words were written and validated by naga when Swell was built.
         let raw =

@@ -85,22 +85,22 @@ impl Target {
                 attachment(info.format, info.samples, color | transient),
             )?);
         }
-        let pass = render_pass(device, info)?;
         let mut target = Self {
             info,
-            pass,
+            pass: vk::RenderPass::null(),
             framebuffer: vk::Framebuffer::null(),
             finished,
             _transient: images,
             device: Arc::clone(device),
         };
+        target.pass = render_pass(device, info)?;
         let drawn = target._transient.get(1).unwrap_or(&target.finished).view;
         let mut views = vec![drawn, target._transient[0].view];
         if resolves {
             views.push(target.finished.view);
         }
         let create = vk::FramebufferCreateInfo::default()
-            .render_pass(pass)
+            .render_pass(target.pass)
             .attachments(&views)
             .width(info.extent.width)
             .height(info.extent.height)
@@ -142,8 +142,7 @@ impl Target {
 
     /// Records a copy of the finished image, view after view, to the start of `buffer`.
     pub fn copy_to(&self, commands: Recorder<'_>, buffer: &Buffer) {
-        let mut regions = Vec::with_capacity(1);
-        self.finished.copy_regions(0, 4, &mut regions);
+        let region = [self.finished.copy_region(0, 0)];
         let layout = vk::ImageLayout::TRANSFER_SRC_OPTIMAL;
         let barrier = vk::MemoryBarrier::default()
             .src_access_mask(vk::AccessFlags::TRANSFER_WRITE)
@@ -155,7 +154,7 @@ impl Target {
                 self.finished.raw,
                 layout,
                 buffer.raw,
-                &regions,
+                &region,
             );
             self.device.raw.cmd_pipeline_barrier(
                 commands.raw,
