@@ -8,7 +8,9 @@ use std::process::ExitCode;
 fn main() -> ExitCode {
     // clap itself answers --help with status 0 and a wrong command line with status 2.
     let arguments = cli::Arguments::parse();
-    let order: Vec<String> = std::env::args().skip(1).collect();
+    // Only options are looked for in it, and file names need not be Unicode.
+    let order: Vec<String> =
+        std::env::args_os().skip(1).map(|word| word.to_string_lossy().into_owned()).collect();
     match arguments.run(&order) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {

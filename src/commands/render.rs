@@ -84,7 +84,7 @@ pub fn render(scene: &Scene, options: &RenderOptions) -> Result<(), CommandError
     })?;
     progress.finish();
     cost.tell(host.uploaded(), &host.device().physical.name);
-    let said = host.device().instance().messages();
+    let said = host.close();
     if said.is_empty() { Ok(()) } else { Err(CommandError::Validation { count: said.len() }) }
 }
 

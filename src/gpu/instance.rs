@@ -17,7 +17,7 @@ pub enum Validation {
     /// No layers.
     #[default]
     Off,
-    /// Core and synchronization validation; every message is kept in [`Instance::messages`].
+    /// Core and synchronization validation; every message is kept in [`Instance::heard`].
     On,
 }
 
@@ -28,7 +28,7 @@ pub struct Instance {
     /// The loader.
     pub entry: ash::Entry,
     debug: Option<(ext::debug_utils::Instance, Option<vk::DebugUtilsMessengerEXT>)>,
-    messages: Box<Messages>,
+    messages: Arc<Messages>,
 }
 
 impl Instance {
@@ -60,7 +60,7 @@ impl Instance {
                 vec![VALIDATION_LAYER.as_ptr()]
             }
         };
-        let messages = Box::<Messages>::default();
+        let messages = Arc::<Messages>::default();
         let name = CString::new(env!("CARGO_PKG_NAME")).unwrap_or_default();
         let application = vk::ApplicationInfo::default()
             .application_name(&name)
@@ -106,6 +106,11 @@ impl Instance {
     /// Whether objects can be named.
     pub(super) const fn has_debug_utils(&self) -> bool {
         self.debug.is_some()
+    }
+
+    /// What validation says. Kept beyond the instance's end, it tells of what was never destroyed as well.
+    pub fn heard(&self) -> Arc<Messages> {
+        Arc::clone(&self.messages)
     }
 
     /// What validation has said since the start.

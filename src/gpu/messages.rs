@@ -2,6 +2,7 @@
 
 use ash::{ext, vk};
 use std::ffi::{CStr, c_void};
+use std::io::Write as _;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 /// Messages of the validation layers, in order of arrival.
@@ -42,7 +43,7 @@ pub(super) fn listen(
     debug: &ext::debug_utils::Instance,
     messages: &Messages,
 ) -> Result<vk::DebugUtilsMessengerEXT, vk::Result> {
-    // SAFETY: the instance lives; `messages` is boxed by the instance's owner and outlives the messenger.
+    // SAFETY: the instance lives; the instance's owner shares `messages`, which so outlives the messenger.
     unsafe { debug.create_debug_utils_messenger(&messenger_info(messages), None) }
 }
 
@@ -62,7 +63,8 @@ unsafe extern "system" fn receive(
         (CStr::from_ptr(message).to_string_lossy(), &*user.cast::<Messages>())
     };
     if !text.contains(ABOUT_THE_LOADER) {
-        eprintln!("validation: {text}");
+        // A closed standard error must not end in a panic: the caller is Vulkan.
+        let _closed = writeln!(std::io::stderr(), "validation: {text}");
         messages.list().push(text.into_owned());
     }
     vk::FALSE

@@ -26,6 +26,7 @@ pub use error::{Doing, GpuError};
 pub use gpu_allocator::MemoryLocation;
 pub use image::{Image, ImageInfo, Sampler};
 pub use instance::{API_VERSION, Instance, Validation};
+pub use messages::Messages;
 pub use physical::{PhysicalDevice, version};
 pub use pipeline::{DepthUse, Pipeline, PipelineInfo, VertexInput};
 pub use recorder::Recorder;

@@ -138,6 +138,13 @@ impl Headless {
         &self.device
     }
 
+    /// Ends everything, and returns what validation has said, the end included: it tells of what was never destroyed.
+    pub fn close(self) -> Vec<String> {
+        let heard = self.device.instance().heard();
+        drop(self);
+        heard.all()
+    }
+
     /// Bytes uploaded by the latest frame.
     pub const fn uploaded(&self) -> u64 {
         self.renderer.uploaded()
