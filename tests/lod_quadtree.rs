@@ -25,7 +25,7 @@ fn settings_out_of_range_are_named() {
         ("size", LodSettings { size: 255.0, ..good }),
         ("size", LodSettings { size: f64::NAN, ..good }),
         ("levels", LodSettings { levels: Some(0), ..good }),
-        ("levels", LodSettings { levels: Some(9), ..good }),
+        ("levels", LodSettings { levels: Some(11), ..good }),
         ("max_height", LodSettings { max_height: Some(-1.0), ..good }),
         ("reach", LodSettings { reach: f64::INFINITY, ..good }),
         ("skirt_extent", LodSettings { skirt_extent: 0.5, ..good }),

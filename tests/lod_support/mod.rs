@@ -47,7 +47,7 @@ pub fn tree(size: f64, quality: Quality, levels: Option<u32>) -> Quadtree {
 /// Every preset with sizes over the whole range and several overridden depths.
 pub fn trees() -> Vec<Quadtree> {
     let sizes = [(256.0, None), (384.0, Some(5)), (1024.0, None), (1536.0, Some(1)), (4096.0, None)];
-    let deep = [(2048.0, Some(8)), (8192.0, None), (8192.0, Some(3))];
+    let deep = [(2048.0, Some(8)), (8192.0, Some(10)), (8192.0, None), (8192.0, Some(3))];
     let cases = sizes.into_iter().chain(deep);
     cases.flat_map(|(size, levels)| QUALITIES.map(|quality| tree(size, quality, levels))).collect()
 }
