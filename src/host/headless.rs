@@ -92,8 +92,15 @@ impl Headless {
         })
     }
 
-    /// Draws the sea at each of `times`, the first being the one given to [`Self::new`], and hands every finished frame
-    /// to `take`. While one frame is drawn the next one's sea is simulated and the one before is taken.
+    /// Looks from `eyes`, one for each view, from the next frame on; a view without a new eye keeps its own.
+    pub fn set_eyes(&mut self, eyes: &[Eye]) {
+        for (own, eye) in self.eyes.iter_mut().zip(eyes) {
+            *own = *eye;
+        }
+    }
+
+    /// Draws the sea at each of `times` and hands every finished frame to `take`. The first time of the first run is
+    /// the one given to [`Self::new`]; later runs begin where they like. While one frame is drawn the next one's sea is simulated and the one before is taken.
     ///
     /// # Errors
     /// The device or a worker failed, or `take` did.
@@ -103,6 +110,9 @@ impl Headless {
         mut take: impl FnMut(Finished<'_>) -> Result<(), HostError>,
     ) -> Result<(), HostError> {
         let mut drawn = [DrawCounts::default(); FRAMES_IN_FLIGHT];
+        if let Some(&first) = times.first() {
+            self.sea.begin(first)?;
+        }
         for index in 0..times.len() {
             let slot = index % FRAMES_IN_FLIGHT;
             let maps = self.sea.next(times.get(index + 1).copied())?;
