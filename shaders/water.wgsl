@@ -97,7 +97,9 @@ fn foam_at(rest: vec2f, compression: f32, distance: f32) -> vec4f {
 }
 
 fn shade(in: Varyings) -> vec3f {
-    let to_eye = frame.eyes[in.view].xyz - in.position;
+    // The centre of a pixel cut by the horizon may lie beyond infinity, where 1/w is negative and what is interpolated
+    // comes back from behind.
+    let to_eye = (frame.eyes[in.view].xyz - in.position) * select(-1.0, 1.0, in.clip.w > 0.0);
     let distance = length(to_eye);
     let v = to_eye / distance;
     let surface = surface_at(in.rest);
