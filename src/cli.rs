@@ -80,7 +80,7 @@ struct Render {
     #[arg(long)]
     validate: bool,
     /// Worker threads for the sea; one a core if not given.
-    #[arg(long, default_value_t = 0, hide_default_value = true)]
+    #[arg(long, default_value = "0", hide_default_value = true, value_parser = threads)]
     threads: usize,
 }
 
@@ -97,7 +97,7 @@ struct Bake {
     #[arg(long, default_value = "npy")]
     format: Format,
     /// Worker threads; one a core if not given.
-    #[arg(long, default_value_t = 0, hide_default_value = true)]
+    #[arg(long, default_value = "0", hide_default_value = true, value_parser = threads)]
     threads: usize,
 }
 
@@ -242,6 +242,14 @@ fn point(text: &str) -> Result<[f64; 3], String> {
     numbers
         .and_then(|numbers| numbers.try_into().ok())
         .ok_or_else(|| "wanted X,Y,Z: three numbers of metres, -1e9 to 1e9".to_owned())
+}
+
+/// Starting threads beyond all sense takes a system's memory before it is refused.
+const MOST_THREADS: usize = 1024;
+
+fn threads(text: &str) -> Result<usize, String> {
+    let number = text.parse().ok().filter(|&number| number <= MOST_THREADS);
+    number.ok_or_else(|| format!("wanted a number of threads, 1 to {MOST_THREADS}, or 0 for one a core"))
 }
 
 fn picture_size(text: &str) -> Result<[u32; 2], String> {

@@ -46,11 +46,15 @@ impl Said {
     pub fn fails_with(&self, status: i32, words: &[&str]) {
         assert_eq!(self.status, Some(status), "{self:?}");
         assert_eq!(self.out, "", "{self:?}");
-        // After a wrong command line clap adds where to read on; that is the only other thing that may be said.
+        // After a wrong command line clap adds the right form and where to read on; nothing else may be said.
         let lines: Vec<&str> = self
             .err
             .lines()
-            .filter(|line| !line.is_empty() && !line.starts_with("For more information, try"))
+            .filter(|line| {
+                !line.is_empty()
+                    && !line.starts_with("Usage: ")
+                    && !line.starts_with("For more information, try")
+            })
             .collect();
         assert_eq!(lines.len(), 1, "one line is wanted: {self:?}");
         for word in words {
