@@ -12,13 +12,15 @@ mod renderer;
 mod sea_textures;
 mod sky;
 mod sky_map;
+mod sky_picture;
 mod uniforms;
 
 pub use camera::{Eye, Fov, eyes};
 pub use debug_view::Look;
 pub use ocean::DrawCounts;
 pub use renderer::{DrawError, Renderer};
-pub use sky_map::{SkyError, SkyMap};
+pub use sky_map::SkyMap;
+pub use sky_picture::SkyError;
 
 /// SPIR-V and reflection, written by build.rs.
 pub mod shaders {

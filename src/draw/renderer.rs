@@ -151,10 +151,7 @@ impl Renderer {
 }
 
 /// The sky's cube, the foam's pattern, and the samplers: tiling, clamping, and tiling at grazing angles.
-fn shared_textures(
-    device: &Arc<Device>,
-    sky_map: &SkyMap,
-) -> Result<(Image, Image, [Sampler; 3]), GpuError> {
+fn shared_textures(device: &Arc<Device>, sky_map: &SkyMap) -> Result<(Image, Image, [Sampler; 3]), GpuError> {
     let cube = ImageInfo {
         layers: 6,
         view: vk::ImageViewType::CUBE,

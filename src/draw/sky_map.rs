@@ -2,11 +2,11 @@
 
 use super::clouds::Clouds;
 use super::daylight::Daylight;
+use super::sky_picture::{Picture, SkyError};
 use crate::scene::{SkySettings, SkySource};
 use glam::Vec3;
 use half::f16;
 use rayon::prelude::*;
-use std::path::{Path, PathBuf};
 
 /// Texels along a face's side: 0.35 degrees each at the middle, fine enough for clouds.
 pub const FACE: usize = 256;
@@ -15,32 +15,6 @@ pub const MIPS: usize = FACE.ilog2() as usize + 1;
 
 /// Luminance of linear Rec. 709.
 const LUMINANCE: Vec3 = Vec3::new(0.2126, 0.7152, 0.0722);
-
-/// A sky file that cannot be used.
-#[derive(Debug, thiserror::Error)]
-pub enum SkyError {
-    /// It cannot be read as an image.
-    #[error("sky file {}: {source}", file.display())]
-    Read {
-        /// The file.
-        file: PathBuf,
-        /// Why.
-        source: image::ImageError,
-    },
-    /// Its shape is none of the known ones.
-    #[error(
-        "sky file {} is {width}x{height}: wanted a 6:1 strip (+X -X +Y -Y +Z -Z), a 3:4 vertical cross, or a 2:1 panorama",
-        file.display()
-    )]
-    Shape {
-        /// The file.
-        file: PathBuf,
-        /// Pixels across.
-        width: u32,
-        /// Pixels down.
-        height: u32,
-    },
-}
 
 /// Texels and the light they shed.
 pub struct SkyMap {
@@ -84,7 +58,10 @@ impl SkyMap {
                     clouds.over(direction, daylight.radiance(direction) * sea)
                 })
             }
-            SkySource::Cubemap { file } => Picture::open(file)?.bake(),
+            SkySource::Cubemap { file } => {
+                let picture = Picture::open(file)?;
+                bake(|direction| picture.radiance(direction))
+            }
         };
         let sky_light = illuminance(&top);
         Ok(Self { texels: chain(top), sky_light, sun_light: daylight.sun_light() * strength, sun })
@@ -152,107 +129,16 @@ fn chain(top: Vec<Vec3>) -> Vec<[f16; 4]> {
     }
 }
 
-/// How the faces lie in a picture.
-enum Layout {
-    Strip,
-    Cross,
-    Panorama,
-}
+#[cfg(test)]
+mod tests {
+    use super::*;
 
-struct Picture {
-    image: image::Rgb32FImage,
-    layout: Layout,
-}
-
-impl Picture {
-    fn open(file: &Path) -> Result<Self, SkyError> {
-        let read = |source| SkyError::Read { file: file.to_owned(), source };
-        let reader = image::ImageReader::open(file).map_err(|e| read(e.into()))?;
-        let reader = reader.with_guessed_format().map_err(|e| read(e.into()))?;
-        let encoded = matches!(reader.format(), Some(image::ImageFormat::Png));
-        let mut image = reader.decode().map_err(read)?.into_rgb32f();
-        if encoded {
-            // PNG holds sRGB; white is taken for a bright sky's 10 kcd/m^2.
-            for value in image.as_flat_samples_mut().samples.iter_mut() {
-                *value = 10.0 * linear(*value);
-            }
-        }
-        let (width, height) = image.dimensions();
-        let layout = match () {
-            () if width == 6 * height => Layout::Strip,
-            () if 4 * width == 3 * height => Layout::Cross,
-            () if width == 2 * height => Layout::Panorama,
-            () => return Err(SkyError::Shape { file: file.to_owned(), width, height }),
-        };
-        Ok(Self { image, layout })
+    #[test]
+    fn a_white_sky_lights_the_sea_with_pi() {
+        let white = vec![Vec3::ONE; 6 * FACE * FACE];
+        assert!((illuminance(&white).x - std::f32::consts::PI).abs() < 0.01);
+        let texels = chain(white);
+        assert_eq!(texels.len(), (0..MIPS).map(|m| 6 * (FACE >> m).pow(2)).sum::<usize>());
+        assert!(texels.iter().all(|t| t[0].to_f32() == 1.0));
     }
-
-    fn bake(&self) -> Vec<Vec3> {
-        match self.layout {
-            Layout::Panorama => bake(|direction| self.panorama(direction)),
-            Layout::Strip | Layout::Cross => (0..6 * FACE * FACE)
-                .into_par_iter()
-                .map(|i| self.face(i / (FACE * FACE), i % FACE, i / FACE % FACE))
-                .collect(),
-        }
-    }
-
-    /// The middle column looks along -Z, the top row is the zenith.
-    fn panorama(&self, d: Vec3) -> Vec3 {
-        let (width, height) = self.size();
-        let u = 0.5 + d.x.atan2(-d.z) / std::f32::consts::TAU;
-        let v = d.y.clamp(-1.0, 1.0).acos() / std::f32::consts::PI;
-        self.sample(u * width - 0.5, v * height - 0.5)
-    }
-
-    /// Faces of a vertical cross: +Y on top; -X, +Z, +X beside each other; -Y; and -Z at the bottom, upside down.
-    fn face(&self, face: usize, x: usize, y: usize) -> Vec3 {
-        #[expect(clippy::cast_precision_loss, reason = "texel counts")]
-        let [s, t] = [x, y].map(|i| (i as f32 + 0.5) / FACE as f32);
-        let (width, height) = self.size();
-        let (column, row, side, s, t) = match self.layout {
-            #[expect(clippy::cast_precision_loss, reason = "0..6")]
-            Layout::Strip => (face as f32, 0.0, height, s, t),
-            _ => {
-                let side = width / 3.0;
-                match face {
-                    0 => (2.0, 1.0, side, s, t),
-                    1 => (0.0, 1.0, side, s, t),
-                    2 => (1.0, 0.0, side, s, t),
-                    3 => (1.0, 2.0, side, s, t),
-                    4 => (1.0, 1.0, side, s, t),
-                    _ => (1.0, 3.0, side, 1.0 - s, 1.0 - t),
-                }
-            }
-        };
-        // Kept half a pixel inside the face, so that neighbours in the picture do not bleed in.
-        let inside = |unit: f32| (unit * side - 0.5).clamp(0.0, side - 1.0);
-        self.sample(column * side + inside(s), row * side + inside(t))
-    }
-
-    #[expect(clippy::cast_precision_loss, reason = "picture sizes")]
-    fn size(&self) -> (f32, f32) {
-        (self.image.width() as f32, self.image.height() as f32)
-    }
-
-    /// Bilinear; wraps across, clamps down.
-    fn sample(&self, x: f32, y: f32) -> Vec3 {
-        let (width, height) = self.image.dimensions();
-        let (fx, fy) = (x - x.floor(), y - y.floor());
-        #[expect(clippy::cast_possible_truncation, reason = "a pixel's index")]
-        let (x, y) = (x.floor() as i64, y.floor() as i64);
-        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "wrapped and clamped")]
-        let at = |dx: i64, dy: i64| {
-            let column = (x + dx).rem_euclid(i64::from(width)) as u32;
-            let row = (y + dy).clamp(0, i64::from(height) - 1) as u32;
-            let texel = Vec3::from_array(self.image.get_pixel(column, row).0);
-            if texel.is_finite() { texel.max(Vec3::ZERO) } else { Vec3::ZERO }
-        };
-        at(0, 0).lerp(at(1, 0), fx).lerp(at(0, 1).lerp(at(1, 1), fx), fy)
-    }
-}
-
-/// The sRGB transfer function's inverse.
-fn linear(encoded: f32) -> f32 {
-    if encoded <= 0.040_45 { encoded / 12.92 } else { ((encoded + 0.055) / 1.055).powf(2.4) }
 }
