@@ -1,6 +1,6 @@
 //! Frames drawn by the library, with validation listening.
 use super::picture::Picture;
-use glam::{DVec3, Mat3, Vec3};
+use glam::{DVec3, Mat3};
 use swell::draw::{Eye, Fov, Look};
 use swell::gpu::Validation;
 use swell::host::{Headless, HeadlessSettings};
@@ -73,6 +73,6 @@ pub fn ray(eye: &Eye, size: [u32; 2], [x, y]: [f64; 2]) -> DVec3 {
     let Fov { left, right, up, down } = eye.fov;
     let across = |from: f32, to: f32, share: f64| f64::from(from) + f64::from(to - from) * share;
     let tangents = [across(left, right, x / f64::from(size[0])), across(up, down, y / f64::from(size[1]))];
-    let [right, up, back] = [0, 1, 2].map(|axis| Vec3::from(eye.axes.col(axis)).as_dvec3());
+    let [right, up, back] = [0, 1, 2].map(|axis| eye.axes.col(axis).as_dvec3());
     right * tangents[0] + up * tangents[1] - back
 }
