@@ -2,11 +2,12 @@
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 mod support;
 
+use glam::DVec3;
 use std::collections::BTreeSet;
 use support::golden;
 use support::program::names;
-use support::stage::{SCENES, Stage, shipped};
-use swell::draw::Look;
+use support::stage::{SCENES, Stage, eye, shipped};
+use swell::draw::{Fov, Look};
 
 /// Seconds: any moment but 0, where every harmonic begins.
 const TIME: f64 = 12.5;
@@ -14,7 +15,12 @@ const SIZE: [u32; 2] = [320, 180];
 const VIEWS: [&str; 6] = ["wireframe", "lod", "normal", "jacobian", "height", "holes"];
 
 fn debug_view(word: &str) {
-    let picture = Stage::new(&shipped("open_ocean"), SIZE, 1, word.parse().unwrap(), TIME).picture(TIME, &[]);
+    let mut stage = Stage::new(&shipped("open_ocean"), SIZE, 1, word.parse().unwrap(), TIME);
+    // Triangles and levels show from above, where borders of patches lie side by side.
+    let mesh = ["wireframe", "lod"].contains(&word);
+    let fov = Fov::symmetric(0.9, stage.aspect());
+    let above = eye(DVec3::new(3.0, 30.0, 3.0), [0.5, -0.45, 0.0], fov);
+    let picture = stage.picture(TIME, if mesh { &[above] } else { &[] });
     golden::check(&format!("debug_{word}"), &picture);
 }
 
