@@ -100,7 +100,8 @@ impl Headless {
     }
 
     /// Draws the sea at each of `times` and hands every finished frame to `take`. The first time of the first run is
-    /// the one given to [`Self::new`]; later runs begin where they like. While one frame is drawn the next one's sea is simulated and the one before is taken.
+    /// best the one given to [`Self::new`], whose sea is on its way; later runs begin where they like, also after an error.
+    /// While one frame is drawn the next one's sea is simulated and the one before is taken.
     ///
     /// # Errors
     /// The device or a worker failed, or `take` did.

@@ -19,7 +19,8 @@ pub struct SeaAhead {
     front: Option<SeaMaps>,
     /// Maps that no step uses: the second buffer, until the first step begins.
     spare: Option<SeaMaps>,
-    pending: bool,
+    /// Time of the step that is on its way.
+    pending: Option<f64>,
     _workers: Workers,
 }
 
@@ -73,16 +74,21 @@ impl SeaAhead {
         let (front, spare) = (Some(sea.new_maps()), Some(sea.new_maps()));
         let driver = Arc::clone(&shared);
         workers.spawn(move || drive(sea, &driver));
-        Self { shared, front, spare, pending: false, _workers: workers }
+        Self { shared, front, spare, pending: None, _workers: workers }
     }
 
-    /// Begins the step to `time`, unless one is already on its way.
+    /// Begins the step to `time`, unless it is already on its way. One to another time, which somebody began and then
+    /// gave up, is waited for and dropped.
     ///
     /// # Errors
     /// [`SeaError::Gone`] when the driver has ended.
     pub fn begin(&mut self, time: f64) -> Result<(), SeaError> {
-        if self.pending {
-            return Ok(());
+        if let Some(begun) = self.pending {
+            if begun == time {
+                return Ok(());
+            }
+            // What became of it is nobody's business any more.
+            let _dropped = self.next(None);
         }
         let maps = self.spare.take().or_else(|| self.front.take()).ok_or(SeaError::Gone)?;
         let mut state = self.shared.lock();
@@ -93,7 +99,7 @@ impl SeaAhead {
         *state = State::Asked(time, maps);
         drop(state);
         self.shared.changed.notify_all();
-        self.pending = true;
+        self.pending = Some(time);
         Ok(())
     }
 
@@ -104,7 +110,7 @@ impl SeaAhead {
     /// [`SeaError::NotBegun`] when no step is on its way; those of [`Sea::step`]; [`SeaError::Panicked`] when a job
     /// panicked. After an error the next `begin` starts afresh.
     pub fn next(&mut self, following: Option<f64>) -> Result<&SeaMaps, SeaError> {
-        if !self.pending {
+        if self.pending.is_none() {
             return Err(SeaError::NotBegun);
         }
         let finished = self.shared.wait(|state| match std::mem::replace(state, State::Idle) {
@@ -118,7 +124,7 @@ impl SeaAhead {
                 None
             }
         });
-        self.pending = false;
+        self.pending = None;
         let (result, maps) = finished?;
         if let Err(error) = result {
             self.spare = Some(maps);
