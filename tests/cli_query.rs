@@ -10,7 +10,7 @@ fn a_thousand_points_give_a_thousand_lines_in_order() {
     let mut random = Random(4);
     let points: Vec<(&str, [f64; 2])> = (0..1000)
         .map(|_| {
-            let option = if random.bits() % 2 == 0 { "--at" } else { "--rest" };
+            let option = if random.bits().is_multiple_of(2) { "--at" } else { "--rest" };
             (option, [random.between(-5e3, 5e3), random.between(-5e3, 5e3)])
         })
         .collect();

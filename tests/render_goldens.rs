@@ -20,7 +20,7 @@ fn debug_view(word: &str) {
     let mesh = ["wireframe", "lod"].contains(&word);
     let fov = Fov::symmetric(0.9, stage.aspect());
     let above = eye(DVec3::new(3.0, 30.0, 3.0), [0.5, -0.45, 0.0], fov);
-    let picture = stage.picture(TIME, if mesh { &[above] } else { &[] });
+    let picture = stage.picture(TIME, if mesh { std::slice::from_ref(&above) } else { &[] });
     golden::check(&format!("debug_{word}"), &picture);
 }
 

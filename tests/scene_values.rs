@@ -19,7 +19,7 @@ fn an_empty_file_is_a_scene_of_one_cascade_with_all_waves() {
     assert_eq!(cascade.reference_resolution, 256);
     assert_eq!(cascade.spectrum, Spectrum::Jonswap);
     assert_eq!(scene.sea.repeat_period, 200.0);
-    assert_eq!(scene.sky.source, SkySource::Daylight { turbidity: 3.0 });
+    assert_eq!(scene.sky.source, SkySource::Daylight { turbidity: 3.0, clouds: 0.0 });
     assert_eq!(scene.lod.quality, Quality::Medium);
     assert_eq!(scene.lod.levels, None);
 }
@@ -28,11 +28,11 @@ fn an_empty_file_is_a_scene_of_one_cascade_with_all_waves() {
 fn every_key_reaches_its_own_field() {
     let scene = parse(
         "[sea]\nmodel = 'fft'\nresolution = 64\npatch_size = 2\nwind_speed = 3\nwind_direction_deg = 90\n\
-         alignment = 0.4\nchoppiness = 0.5\nsmall_wave_suppression = 0.6\nrepeat_period = 70\nroughness = 0.8\n\
+         alignment = 0.4\nchoppiness = 0.5\nsmall_wave_suppression = 0.6\nrepeat_period = 70\nroughness = 0.8\nbreaking = 0.7\n\
          amplitude = 9\nseed = 0x10\nspectrum = 'tma'\nfetch = 1_100\npeak_enhancement = 1.2\ndepth = 13\ngravity = 1.4\n\
          normals = 'sheet'\nfoam = { threshold = 1.5, width = 1.6, fade_time = 17 }\n\
          [lod]\nsize = 512\nquality = 'ultra'\nlevels = 3\nmax_height = 4\nreach = 5\nskirt_extent = 6\n\
-         [sky]\nturbidity = 2\nsun_azimuth_deg = -180\nsun_elevation_deg = 90\nsun_intensity = 3\nexposure = -4\nvisibility = 500\n\
+         [sky]\nturbidity = 2\nclouds = 0.25\nsun_azimuth_deg = -180\nsun_elevation_deg = 90\nsun_intensity = 3\nexposure = -4\nvisibility = 500\n\
          [water]\ndeep_color = [0.1, 0.2, 0.3]\nscatter_color = [0.4, 0.5, 0.6]\nscatter = 7\nfoam_color = [0.8, 0.9, 1]\ndetail = 2.5\n\
          [camera]\neye = [1, 2, 3]\nlook = [4, 5, 6]\nfov_deg = 90\neye_separation = 0.5\n",
     );
@@ -40,7 +40,8 @@ fn every_key_reaches_its_own_field() {
     let c = &sea.cascades[0];
     assert_eq!((c.resolution, c.reference_resolution, c.patch_size, c.wind_speed), (64, 64, 2.0, 3.0));
     assert_eq!((c.wind_direction, c.alignment, c.choppiness), (FRAC_PI_2, 0.4, 0.5));
-    assert_eq!((c.small_wave_suppression, c.roughness, c.amplitude, c.seed), (0.6, 0.8, 9.0, 16));
+    assert_eq!((c.small_wave_suppression, c.roughness, c.breaking), (0.6, 0.8, 0.7));
+    assert_eq!((c.amplitude, c.seed), (9.0, 16));
     assert_eq!((c.spectrum, c.fetch, c.peak_enhancement, c.depth), (Spectrum::Tma, 1100.0, 1.2, 13.0));
     assert_eq!((sea.gravity, sea.repeat_period, sea.normals), (1.4, 70.0, NormalKind::Sheet));
     assert_eq!((sea.foam.threshold, sea.foam.width, sea.foam.fade_time), (1.5, 1.6, 17.0));
@@ -48,7 +49,7 @@ fn every_key_reaches_its_own_field() {
     assert_eq!((lod.size, lod.quality, lod.levels), (512.0, Quality::Ultra, Some(3)));
     assert_eq!((lod.max_height, lod.reach, lod.skirt_extent), (Some(4.0), 5.0, 6.0));
     let sky = &scene.sky;
-    assert_eq!(sky.source, SkySource::Daylight { turbidity: 2.0 });
+    assert_eq!(sky.source, SkySource::Daylight { turbidity: 2.0, clouds: 0.25 });
     assert_eq!((sky.sun_azimuth, sky.sun_elevation, sky.sun_intensity), (-PI, FRAC_PI_2, 3.0));
     assert_eq!((sky.exposure, sky.visibility), (-4.0, 500.0));
     let water = &scene.water;

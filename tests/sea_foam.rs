@@ -89,7 +89,9 @@ fn foam_lingers_where_the_surface_was_squeezed_and_fades() {
 
 #[test]
 fn compression_and_cover_have_their_known_values() {
-    assert_eq!([1.5, 1.0, 0.25, 0.0, -0.5, -7.0].map(compression), [0.0, 0.0, 0.75, 1.0, 1.5, 2.0]);
+    let whole = |jacobian| compression(jacobian, 1.0);
+    assert_eq!([1.5, 1.0, 0.25, 0.0, -0.5, -7.0].map(whole), [0.0, 0.0, 0.75, 1.0, 1.5, 2.0]);
+    assert_eq!(compression(0.0, 0.25), 0.25);
     let settings = FoamSettings { threshold: 0.4, width: 0.4, fade_time: 1.0 };
     assert_eq!(foam(&settings, 0.4), 0.0);
     assert!((foam(&settings, 0.6) - 0.5).abs() < 1e-12);
