@@ -38,7 +38,8 @@ struct Frame {
     scatter: vec4f,
     // rgb: albedo of foam.
     foam: vec4f,
-    // x: compression where foam begins; y: 1 / width; z: metres a repeat of the foam texture; w: unused.
+    // x: compression where foam begins; y: 1 / width; z: repeats of the foam's pattern a patch of the first
+    // cascade; w: 1 / (4 RMS heights).
     foam_range: vec4f,
     // x: cells a patch side; y: side of the quadtree; z, w: vertex spacing = clamp(z * distance, w, ...).
     lod: vec4f,

@@ -90,7 +90,8 @@ fn remembered(rest: vec2f) -> f32 {
 // pattern. From afar the pattern's mips are grey, and the edge is soft, so that the mean cover stays as it is.
 fn foam_at(rest: vec2f, compression: f32, distance: f32) -> vec4f {
     let amount = smoothstep(0.0, 1.0, (compression - frame.foam_range.x) * frame.foam_range.y);
-    let pattern = textureSample(foam_pattern, tiling, rest * frame.foam_range.z).r;
+    // A whole number of repeats a patch of the first cascade: the pattern lies still on the water wherever the origin is.
+    let pattern = textureSample(foam_pattern, tiling, map_coordinates(rest, 0u) * frame.foam_range.z).r;
     let soft = mix(0.14, 0.5, saturate(distance * 0.006));
     let cover = saturate((pattern + amount - 1.0) / (2.0 * soft) + 0.5) * saturate(amount * 8.0);
     return vec4f(frame.foam.rgb * (0.7 + 0.3 * pattern), cover);

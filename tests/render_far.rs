@@ -8,15 +8,16 @@ use support::stage::Stage;
 use swell::draw::{Fov, Look};
 use swell::scene::Scene;
 
-/// 1 000 000 m are 8 000 patches of the sea and 31 250 steps of the quadtree's origin, S / (2 V) = 32 m. The foam's
-/// pattern repeats by another measure, so there is no foam.
+/// 1 000 000 m are 8 000 patches of the sea and 31 250 steps of the quadtree's origin, S / (2 V) = 32 m. Foam is
+/// everywhere, so its pattern is compared too.
 const SCENE: &str = "
 [sea]
 patch_size = 125
 resolution = 256
 wind_speed = 9
 [sea.foam]
-threshold = 4
+threshold = 0.05
+width = 0.5
 [lod]
 size = 2048
 quality = 'medium'

@@ -45,8 +45,8 @@ const _: () = assert!(size_of::<Frame>() == UNIFORM_SIZE, "Frame and shaders/fra
 const SUN_RADIUS: f32 = 0.004_65;
 /// With 0 stops of exposure a white wall in full sun (about 35 kcd/m^2) is just below white.
 const EXPOSURE: f64 = 0.06;
-/// Metres across which the foam's pattern repeats.
-const FOAM_REPEAT: f32 = 11.0;
+/// Metres, at most, across which the foam's pattern repeats.
+const FOAM_REPEAT: f64 = 11.0;
 /// Koschmieder's 2 % of contrast: -ln 0.02.
 const VISIBILITY: f64 = 3.912;
 
@@ -84,7 +84,8 @@ impl Frame {
             foam_range: Vec4::new(
                 foam.threshold as f32,
                 1.0 / foam.width.max(1e-3) as f32,
-                1.0 / FOAM_REPEAT,
+                (scene.sea.cascades.first().map_or(1.0, |cascade| cascade.patch_size) / FOAM_REPEAT).ceil()
+                    as f32,
                 (0.25 / height) as f32,
             ),
             lod: Vec4::new(
