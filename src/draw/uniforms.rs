@@ -43,8 +43,8 @@ const _: () = assert!(size_of::<Frame>() == UNIFORM_SIZE, "Frame and shaders/fra
 
 /// Radius of the sun's disc, radians.
 const SUN_RADIUS: f32 = 0.004_65;
-/// With 0 stops of exposure a white wall in full sun (about 35 kcd/m^2) is just below white.
-const EXPOSURE: f64 = 0.06;
+/// With 0 stops of exposure a white wall in full sun (about 35 kcd/m^2) is a bright white, and a clear sky keeps its blue.
+const EXPOSURE: f64 = 0.03;
 /// Metres, at most, across which the foam's pattern repeats.
 const FOAM_REPEAT: f64 = 11.0;
 /// Koschmieder's 2 % of contrast: -ln 0.02.
