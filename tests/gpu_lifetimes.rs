@@ -11,7 +11,7 @@ fn stage() -> Stage {
 }
 
 fn give_up(host: &mut Headless) {
-    let ended = host.run(&[0.0, 1.0, 2.0], |_| Err(HostError::WriterGone));
+    let ended = host.run([0.0, 1.0, 2.0], |_| Err(HostError::WriterGone));
     assert!(matches!(ended, Err(HostError::WriterGone)));
 }
 

@@ -62,17 +62,17 @@ pub fn render(scene: &Scene, options: &RenderOptions) -> Result<(), CommandError
         threads: options.threads,
         cache: options.cache.clone(),
     };
-    let times: Vec<f64> = options.frames.indices().map(|frame| options.clock.time(frame)).collect();
-    let mut host = Headless::new(scene, &settings, times[0])?;
+    let frames = options.frames.indices();
+    let mut host = Headless::new(scene, &settings, options.clock.time(frames.start))?;
     let mut cost = Cost::default();
-    let mut progress = Progress::new("drawing", times.len() as u64);
+    let mut progress = Progress::new("drawing", options.frames.count());
     let writer = Writer { options, format };
     thread::scope(|scope| -> Result<(), CommandError> {
         // Two pictures in flight: one being compressed, one being filled. Buffers come back to be used again.
         let (pictures, queue) = sync_channel(1);
         let (give_back, spare) = channel();
         let thread = scope.spawn(|| writer.run(queue, give_back));
-        let drawn = host.run(&times, |frame| {
+        let drawn = host.run(frames.map(|frame| options.clock.time(frame)), |frame| {
             cost.frame(&frame);
             progress.step();
             hand_over(&frame, &pictures, &spare)

@@ -107,16 +107,17 @@ impl Headless {
     /// The device or a worker failed, or `take` did.
     pub fn run(
         &mut self,
-        times: &[f64],
+        times: impl IntoIterator<Item = f64>,
         mut take: impl FnMut(Finished<'_>) -> Result<(), HostError>,
     ) -> Result<(), HostError> {
         let mut drawn = [DrawCounts::default(); FRAMES_IN_FLIGHT];
-        if let Some(&first) = times.first() {
-            self.sea.begin(first)?;
-        }
-        for index in 0..times.len() {
+        let mut times = times.into_iter();
+        let Some(first) = times.next() else { return Ok(()) };
+        self.sea.begin(first)?;
+        for index in 0.. {
             let slot = index % FRAMES_IN_FLIGHT;
-            let maps = self.sea.next(times.get(index + 1).copied())?;
+            let following = times.next();
+            let maps = self.sea.next(following)?;
             let commands = self.commands[slot].begin()?;
             drawn[slot] = self.renderer.record(commands, &self.target, slot, &self.eyes, maps)?;
             self.target.copy_to(commands, &self.readback[slot]);
@@ -124,11 +125,11 @@ impl Headless {
             if let Some(before) = index.checked_sub(1) {
                 self.finish(before, &drawn, &mut take)?;
             }
+            if following.is_none() {
+                return self.finish(index, &drawn, &mut take);
+            }
         }
-        match times.len().checked_sub(1) {
-            Some(last) => self.finish(last, &drawn, &mut take),
-            None => Ok(()),
-        }
+        Ok(())
     }
 
     fn finish(

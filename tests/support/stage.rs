@@ -41,7 +41,7 @@ impl Stage {
         self.host.set_eyes(eyes);
         let mut bytes = Vec::new();
         self.host
-            .run(&[time], |frame| {
+            .run([time], |frame| {
                 bytes.extend_from_slice(frame.pixels);
                 Ok(())
             })
