@@ -2,11 +2,20 @@
 #include "waves.wgsl"
 #include "water.wgsl"
 
-// A readable colour for each level of the quadtree. Twin: lod::level_color.
+// A colour for each level of the quadtree, told apart by hue and lightness. Twin: lod::level_color.
 fn level_color(level: f32) -> vec3f {
-    let hue = fract(level * 0.381966) * 6.0;
-    let ramp = saturate(abs(vec3f(hue, hue - 2.0, hue - 4.0) - vec3f(3.0, 0.0, 0.0)) * vec3f(1.0, -1.0, -1.0) + vec3f(-1.0, 2.0, 2.0));
-    return 0.15 + 0.7 * ramp;
+    var colors = array<vec3f, 9>(
+        vec3f(0.30, 0.30, 0.30),
+        vec3f(0.00, 0.17, 0.45),
+        vec3f(0.09, 0.46, 0.81),
+        vec3f(0.00, 0.34, 0.17),
+        vec3f(0.87, 0.77, 0.05),
+        vec3f(0.79, 0.35, 0.00),
+        vec3f(0.66, 0.11, 0.00),
+        vec3f(0.60, 0.19, 0.39),
+        vec3f(0.90, 0.90, 0.90),
+    );
+    return colors[u32(level) % 9u];
 }
 
 fn normal_at(rest: vec2f) -> vec3f {

@@ -13,7 +13,7 @@ use crate::gpu::{
     Bindings, Device, FRAMES_IN_FLIGHT, GpuError, Image, ImageInfo, Recorder, Resource, Sampler, Target,
     UploadRing, upload_image,
 };
-use crate::lod::{Frustum, LodError, Quadtree};
+use crate::lod::{Frustum, LodError, Quadtree, vertex_spacing};
 use crate::scene::Scene;
 use crate::sea::SeaMaps;
 use ash::vk;
@@ -65,7 +65,7 @@ impl Renderer {
         let tree = Quadtree::new(&scene.lod)?;
         let cells = tree.preset().cells;
         let spacing = Spacing {
-            per_metre: 1.0 / (f64::from(cells) * (tree.preset().lod_scale - 0.5).max(1.0)),
+            per_metre: vertex_spacing(1.0, tree.preset(), 0.0, f64::INFINITY),
             finest: tree.finest_spacing(),
             coarsest: tree.coarsest_spacing(),
         };
