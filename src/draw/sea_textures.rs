@@ -61,13 +61,11 @@ impl SeaTextures {
         commands.begin_label(c"sea maps");
         let images = || self.displacement.iter().chain(&self.gradient);
         Transition::FILL.record(commands, images(), &mut self.barriers);
-        for (i, cascade) in maps.cascades.iter().enumerate() {
+        for ((cascade, displaced), graded) in maps.cascades.iter().zip(&self.displacement).zip(&self.gradient)
+        {
             let displacement = ring.push(bytemuck::cast_slice(&cascade.displacement), DISPLACEMENT)?;
             let gradient = ring.push(bytemuck::cast_slice(&cascade.gradient), GRADIENT)?;
-            let both = [
-                (&self.displacement[i], displacement, DISPLACEMENT),
-                (&self.gradient[i], gradient, GRADIENT),
-            ];
+            let both = [(displaced, displacement, DISPLACEMENT), (graded, gradient, GRADIENT)];
             for (image, offset, texel) in both {
                 self.regions.clear();
                 image.copy_regions(offset, texel, &mut self.regions);
