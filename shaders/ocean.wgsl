@@ -49,12 +49,10 @@ fn rest_position(in: Patch) -> vec2f {
 @vertex
 fn vertex_main(in: Patch, @builtin(view_index) view: u32) -> Varyings {
     let rest = rest_position(in);
-    let moved = displacement(rest);
     var out: Varyings;
     out.rest = rest;
-    out.position = vec3f(rest.x, 0.0, rest.y) + moved.xyz;
+    out.position = vec3f(rest.x, 0.0, rest.y) + displacement(rest);
     out.clip = frame.view_projection[view] * vec4f(out.position, 1.0);
-    out.compression = moved.w;
     out.level = round(log2(frame.lod.y / in.place.z));
     out.view = view;
     return out;

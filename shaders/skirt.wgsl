@@ -10,7 +10,6 @@ fn vertex_main(@location(0) vertex: vec4f, @builtin(view_index) view: u32) -> Va
     out.clip = frame.view_projection[view] * place;
     out.position = place.xyz;
     out.rest = out.position.xz;
-    out.compression = 0.0;
     out.level = 0.0;
     out.view = view;
     return out;

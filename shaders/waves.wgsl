@@ -6,24 +6,22 @@ struct Varyings {
     // Where the water is when the sea is at rest: what the maps are addressed by.
     @location(0) rest: vec2f,
     @location(1) position: vec3f,
-    // Compression remembered by the displacement maps: foam.
-    @location(2) compression: f32,
     // Level of the patch, for --debug.
-    @location(3) @interpolate(flat) level: f32,
-    @location(4) @interpolate(flat) view: u32,
+    @location(2) @interpolate(flat) level: f32,
+    @location(3) @interpolate(flat) view: u32,
 }
 
-fn displace_by(map: texture_2d<f32>, cascade: u32, rest: vec2f, log_spacing: f32) -> vec4f {
+fn displace_by(map: texture_2d<f32>, cascade: u32, rest: vec2f, log_spacing: f32) -> vec3f {
     let c = frame.cascades[cascade];
     // The mip whose texels are as wide as the grid's cells, so that waves the grid cannot carry are not in it.
     let mip = max(log_spacing - c.log_texel, 0.0);
     let d = textureSampleLevel(map, tiling, map_coordinates(rest, cascade), mip);
     let xz = to_world(d.xz, c.axes);
-    return vec4f(xz.x, d.y, xz.y, d.w);
+    return vec3f(xz.x, d.y, xz.y);
 }
 
-// Displacement (x, y, z) and compression of the rest point.
-fn displacement(rest: vec2f) -> vec4f {
+// Displacement (x, y, z) of the rest point.
+fn displacement(rest: vec2f) -> vec3f {
     let distance = length(vec3f(rest.x, 0.0, rest.y) - frame.head.xyz);
     let log_spacing = log2(clamp(frame.lod.z * distance, frame.lod.w, frame.air.w));
     var sum = displace_by(displacement_0, 0u, rest, log_spacing);
