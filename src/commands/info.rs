@@ -1,7 +1,7 @@
 //! `swell info`: the machine's Vulkan devices, and the scene in a few numbers.
 
 use super::{CommandError, SceneSummary};
-use crate::gpu::{GpuError, Instance, PhysicalDevice, Validation, version};
+use crate::gpu::{Directly, GpuError, Instance, PhysicalDevice, Validation, version};
 use crate::host::HostError;
 use crate::scene::Scene;
 use serde::Serialize;
@@ -74,7 +74,7 @@ pub fn info(scene: &Scene, json: bool, mut out: impl Write) -> Result<(), Comman
 type Devices = (Vec<DeviceSummary>, Option<GpuError>);
 
 fn devices() -> Result<Devices, GpuError> {
-    let instance = Instance::new(Validation::Off, &[])?;
+    let instance = Instance::new(Validation::Off, &[], &Directly)?;
     let all = PhysicalDevice::all(&instance)?;
     let chosen = PhysicalDevice::choose(&instance, None);
     let summary = |device: PhysicalDevice| DeviceSummary {

@@ -11,7 +11,7 @@ use super::sky_map::{self, SkyMap};
 use super::uniforms::{Frame, Spacing};
 use crate::gpu::{
     Bindings, Device, FRAMES_IN_FLIGHT, GpuError, Image, ImageInfo, Recorder, Resource, Sampler, Target,
-    UploadRing, upload_image,
+    Turn, UploadRing, upload_image,
 };
 use crate::lod::{Frustum, LodError, Quadtree, vertex_spacing};
 use crate::scene::Scene;
@@ -113,8 +113,8 @@ impl Renderer {
         })
     }
 
-    /// Records one frame seen by `eyes` (one for each of the target's views) with the sea of `maps`. `slot` is the
-    /// frame in flight whose last use has ended.
+    /// Records one frame seen by `eyes` (one for each of the target's views) with the sea of `maps` into the images whose
+    /// `turn` it is. `slot` is the frame in flight whose last use has ended.
     ///
     /// # Errors
     /// The upload ring is too small, which means that the maps are not the scene's.
@@ -122,6 +122,7 @@ impl Renderer {
         &mut self,
         commands: Recorder<'_>,
         target: &Target,
+        turn: Turn,
         slot: usize,
         eyes: &[Eye],
         maps: &SeaMaps,
@@ -134,7 +135,7 @@ impl Renderer {
         self.still.turn(eyes, selection.origin(), maps);
         let uniforms = self.ring.push(bytemuck::bytes_of(&self.still), self.uniform_align)?;
         self.textures[slot].upload(commands, &mut self.ring, maps)?;
-        target.begin(commands, self.look.clear());
+        target.begin(commands, turn, self.look.clear());
         self.bindings.bind(commands, slot, u32::try_from(uniforms).unwrap_or(u32::MAX));
         let counts = self.ocean.draw(commands, &self.bindings, &mut self.ring, selection)?;
         if let Some(sky) = &self.sky {

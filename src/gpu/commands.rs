@@ -73,6 +73,12 @@ impl Commands {
         }
     }
 
+    /// Whether the device has finished what was last submitted from here; asks, and does not wait.
+    pub fn is_done(&self) -> bool {
+        // SAFETY: the fence is ours.
+        !self.submitted.get() || unsafe { self.device.raw.get_fence_status(self.fence) }.unwrap_or(true)
+    }
+
     /// Waits as [`Self::wait`] does, then starts recording anew.
     ///
     /// # Errors
@@ -96,9 +102,17 @@ impl Commands {
     /// # Errors
     /// The device was lost.
     pub fn submit(&self) -> Result<(), GpuError> {
+        self.submit_signalling(None)
+    }
+
+    /// As [`Self::submit`]; `done` is signalled too, for whoever presents the result.
+    ///
+    /// # Errors
+    /// The device was lost.
+    pub(super) fn submit_signalling(&self, done: Option<vk::Semaphore>) -> Result<(), GpuError> {
         // SAFETY: recording was begun.
         unsafe { self.device.raw.end_command_buffer(self.raw) }.doing("ending a recording")?;
-        self.device.submit(self.raw, self.fence)?;
+        self.device.submit(self.raw, self.fence, done)?;
         self.submitted.set(true);
         Ok(())
     }

@@ -2,14 +2,15 @@
 
 use super::error::{Doing, GpuError};
 use super::instance::Instance;
+use super::opener::{Directly, Opener};
 use super::physical::PhysicalDevice;
 use super::pipeline_cache::PipelineCache;
-use ash::{ext, vk};
+use ash::{ext, khr, vk};
 use gpu_allocator::vulkan::{
     Allocation, AllocationCreateDesc, AllocationScheme, Allocator, AllocatorCreateDesc,
 };
 use gpu_allocator::{AllocationSizes, AllocatorDebugSettings, MemoryLocation};
-use std::ffi::CString;
+use std::ffi::{CStr, CString};
 use std::mem::ManuallyDrop;
 use std::path::Path;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -26,19 +27,41 @@ pub struct Device {
     pub physical: PhysicalDevice,
     pub(super) cache: PipelineCache,
     allocator: ManuallyDrop<Mutex<Allocator>>,
+    /// There where depth can be resolved in a pass.
+    pub(super) render_pass2: Option<khr::create_renderpass2::Device>,
+    /// Whether passes may have a fragment density map.
+    pub density_maps: bool,
     debug: Option<ext::debug_utils::Device>,
     instance: Arc<Instance>,
 }
 
+/// What a host asks of a device beyond what every device of Swell has.
+pub struct DeviceNeeds<'a> {
+    /// Extensions without which the host cannot work.
+    pub extensions: &'a [&'static CStr],
+    /// Whether the density of fragments is to vary where the device can (`VK_EXT_fragment_density_map`).
+    pub foveation: bool,
+    /// Where compiled pipelines are kept between runs.
+    pub cache: Option<&'a Path>,
+    /// Who creates the device.
+    pub opener: &'a dyn Opener,
+}
+
+impl Default for DeviceNeeds<'_> {
+    fn default() -> Self {
+        Self { extensions: &[], foveation: false, cache: None, opener: &Directly }
+    }
+}
+
 impl Device {
-    /// Opens `physical`; compiled pipelines are kept in `cache_dir` between runs where one is given.
+    /// Opens `physical` with what `needs` asks for.
     ///
     /// # Errors
-    /// The device cannot be created, or is without memory.
+    /// An extension asked for is missing, the device cannot be created, or is without memory.
     pub fn new(
         instance: Arc<Instance>,
         physical: PhysicalDevice,
-        cache_dir: Option<&Path>,
+        needs: &DeviceNeeds<'_>,
     ) -> Result<Arc<Self>, GpuError> {
         let queue_family = physical
             .queue_family
@@ -50,15 +73,32 @@ impl Device {
         let features = vk::PhysicalDeviceFeatures::default()
             .fill_mode_non_solid(physical.wireframe)
             .sampler_anisotropy(physical.anisotropy);
+        if let Some(missing) = needs.extensions.iter().find(|name| !physical.has(name)) {
+            let feature = missing.to_string_lossy().into_owned();
+            return Err(GpuError::Missing { device: physical.name.clone(), feature });
+        }
+        let density_maps = needs.foveation && physical.density_maps;
+        let mut names: Vec<_> = needs.extensions.iter().map(|name| name.as_ptr()).collect();
+        if physical.depth_resolve {
+            names.extend([khr::create_renderpass2::NAME.as_ptr(), khr::depth_stencil_resolve::NAME.as_ptr()]);
+        }
+        if density_maps {
+            names.push(ext::fragment_density_map::NAME.as_ptr());
+        }
         let mut multiview = vk::PhysicalDeviceMultiviewFeatures::default().multiview(true);
-        let info = vk::DeviceCreateInfo::default()
+        let mut density =
+            vk::PhysicalDeviceFragmentDensityMapFeaturesEXT::default().fragment_density_map(true);
+        let mut info = vk::DeviceCreateInfo::default()
             .queue_create_infos(&queues)
             .enabled_features(&features)
+            .enabled_extension_names(&names)
             .push_next(&mut multiview);
-        // SAFETY: the handle belongs to this instance and `info` refers to locals that live past the call.
-        let raw =
-            unsafe { instance.raw.create_device(physical.raw, &info, None) }.doing("creating the device")?;
-        let (allocator, cache) = match equip(&instance, &raw, &physical, cache_dir) {
+        if density_maps {
+            info = info.push_next(&mut density);
+        }
+        let opener = needs.opener;
+        let raw = opener.create_device(&instance, physical.raw, &info)?;
+        let (allocator, cache) = match equip(&instance, &raw, &physical, needs.cache) {
             Ok(equipment) => equipment,
             Err(error) => {
                 // SAFETY: what failed left nothing behind on the device, and nobody else has it yet.
@@ -68,6 +108,8 @@ impl Device {
         };
         // SAFETY: the family was asked for with one queue.
         let queue = unsafe { raw.get_device_queue(queue_family, 0) };
+        let render_pass2 =
+            physical.depth_resolve.then(|| khr::create_renderpass2::Device::new(&instance.raw, &raw));
         let debug = instance.has_debug_utils().then(|| ext::debug_utils::Device::new(&instance.raw, &raw));
         Ok(Arc::new(Self {
             raw,
@@ -76,6 +118,8 @@ impl Device {
             physical,
             cache,
             allocator: ManuallyDrop::new(Mutex::new(allocator)),
+            render_pass2,
+            density_maps,
             debug,
             instance,
         }))
@@ -109,13 +153,24 @@ impl Device {
         }
     }
 
-    /// Hands recorded `commands` to the queue, which signals `fence` when they are done.
-    pub(super) fn submit(&self, commands: vk::CommandBuffer, fence: vk::Fence) -> Result<(), GpuError> {
+    /// Hands recorded `commands` to the queue, which signals `fence` (and `done`, where there is one) when they are done.
+    pub(super) fn submit(
+        &self,
+        commands: vk::CommandBuffer,
+        fence: vk::Fence,
+        done: Option<vk::Semaphore>,
+    ) -> Result<(), GpuError> {
         let buffers = [commands];
-        let submits = [vk::SubmitInfo::default().command_buffers(&buffers)];
-        let queue = self.queue.lock().unwrap_or_else(PoisonError::into_inner);
+        let submits =
+            [vk::SubmitInfo::default().command_buffers(&buffers).signal_semaphores(done.as_slice())];
+        let queue = self.queue();
         // SAFETY: the lock keeps other threads from the queue; the commands are whole and the fence unsignalled.
         unsafe { self.raw.queue_submit(*queue, &submits, fence) }.doing("submitting a frame")
+    }
+
+    /// The queue, while nobody else uses it.
+    pub(super) fn queue(&self) -> MutexGuard<'_, vk::Queue> {
+        self.queue.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     fn allocator(&self) -> MutexGuard<'_, Allocator> {

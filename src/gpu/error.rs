@@ -34,6 +34,14 @@ pub enum GpuError {
         "the Vulkan validation layer VK_LAYER_KHRONOS_validation is not installed (Debian: apt-get install vulkan-validationlayers)"
     )]
     NoValidation,
+    /// An OpenXR runtime, which opens Vulkan in its own way, refused.
+    #[error("{doing}: the OpenXR runtime says {reason}")]
+    Runtime {
+        /// What was being done.
+        doing: &'static str,
+        /// The runtime's answer.
+        reason: String,
+    },
     /// A Vulkan call failed.
     #[error("{doing}: Vulkan says {result:?}")]
     Vulkan {
@@ -68,6 +76,18 @@ pub enum GpuError {
         /// The most there can be.
         limit: u64,
     },
+}
+
+impl GpuError {
+    /// The loader is there and no driver is.
+    pub(super) fn no_driver() -> Self {
+        Self::NoDevice("the loader found no driver (Debian: apt-get install mesa-vulkan-drivers)".to_owned())
+    }
+
+    /// Whether a surface has to be made anew, its swapchain with it.
+    pub const fn is_lost_surface(&self) -> bool {
+        matches!(self, Self::Vulkan { result: vk::Result::ERROR_SURFACE_LOST_KHR, .. })
+    }
 }
 
 /// Names what was being done when a Vulkan call failed.

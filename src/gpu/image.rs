@@ -24,6 +24,8 @@ pub struct ImageInfo {
     pub usage: vk::ImageUsageFlags,
     /// How shaders and attachments see it.
     pub view: vk::ImageViewType,
+    /// Drawn with a fragment density map into storage that is smaller than it looks.
+    pub subsampled: bool,
 }
 
 impl ImageInfo {
@@ -39,6 +41,7 @@ impl ImageInfo {
                 vk::ImageUsageFlags::SAMPLED.as_raw() | vk::ImageUsageFlags::TRANSFER_DST.as_raw(),
             ),
             view: vk::ImageViewType::TYPE_2D,
+            subsampled: false,
         }
     }
 }
@@ -51,8 +54,17 @@ pub struct Image {
     pub view: vk::ImageView,
     /// What it was made as.
     pub info: ImageInfo,
-    allocation: Option<Allocation>,
+    memory: Memory,
     device: Arc<Device>,
+}
+
+/// Where an image's texels are.
+enum Memory {
+    None,
+    /// A part of the allocator's.
+    Shared(Allocation),
+    /// Of its own: given only if the image leaves a tiled GPU's tile, which a transient one does not.
+    Lazy(vk::DeviceMemory),
 }
 
 impl Image {
@@ -61,8 +73,13 @@ impl Image {
     /// # Errors
     /// Out of memory, or the size is beyond the device.
     pub fn new(device: &Arc<Device>, name: &str, info: ImageInfo) -> Result<Self, GpuError> {
-        let cube = info.view == vk::ImageViewType::CUBE;
-        let flags = if cube { vk::ImageCreateFlags::CUBE_COMPATIBLE } else { vk::ImageCreateFlags::empty() };
+        let mut flags = vk::ImageCreateFlags::empty();
+        if info.view == vk::ImageViewType::CUBE {
+            flags |= vk::ImageCreateFlags::CUBE_COMPATIBLE;
+        }
+        if info.subsampled {
+            flags |= vk::ImageCreateFlags::SUBSAMPLED_EXT;
+        }
         let create = vk::ImageCreateInfo::default()
             .flags(flags)
             .image_type(vk::ImageType::TYPE_2D)
@@ -76,15 +93,35 @@ impl Image {
         // SAFETY: the device lives; `create` is complete.
         let raw = unsafe { device.raw.create_image(&create, None) }.doing("creating an image")?;
         let mut image =
-            Self { raw, view: vk::ImageView::null(), info, allocation: None, device: Arc::clone(device) };
+            Self { raw, view: vk::ImageView::null(), info, memory: Memory::None, device: Arc::clone(device) };
         // SAFETY: the image is ours.
         let requirements = unsafe { device.raw.get_image_memory_requirements(raw) };
-        let allocation = device.allocate(name, requirements, MemoryLocation::GpuOnly, false)?;
+        let lazy = device.physical.lazy_memory.filter(|index| {
+            info.usage.contains(vk::ImageUsageFlags::TRANSIENT_ATTACHMENT)
+                && requirements.memory_type_bits & (1 << index) != 0
+        });
         // Kept before it is bound, so that a failure frees it.
-        let allocation = image.allocation.insert(allocation);
+        let (memory, offset) = match lazy {
+            Some(index) => {
+                let info = vk::MemoryAllocateInfo::default()
+                    .allocation_size(requirements.size)
+                    .memory_type_index(index);
+                // SAFETY: the device lives, and its memory has this type.
+                let memory = unsafe { device.raw.allocate_memory(&info, None) }
+                    .doing("allocating transient memory")?;
+                image.memory = Memory::Lazy(memory);
+                (memory, 0)
+            }
+            None => {
+                let allocation = device.allocate(name, requirements, MemoryLocation::GpuOnly, false)?;
+                // SAFETY: the handle is used only while `image` keeps the allocation.
+                let place = (unsafe { allocation.memory() }, allocation.offset());
+                image.memory = Memory::Shared(allocation);
+                place
+            }
+        };
         // SAFETY: the memory is fresh, fits the requirements and is bound once.
-        unsafe { device.raw.bind_image_memory(raw, allocation.memory(), allocation.offset()) }
-            .doing("binding an image's memory")?;
+        unsafe { device.raw.bind_image_memory(raw, memory, offset) }.doing("binding an image's memory")?;
         let view = vk::ImageViewCreateInfo::default()
             .image(raw)
             .view_type(info.view)
@@ -146,8 +183,11 @@ impl Drop for Image {
             self.device.raw.destroy_image_view(self.view, None);
             self.device.raw.destroy_image(self.raw, None);
         }
-        if let Some(allocation) = self.allocation.take() {
-            self.device.free(allocation);
+        match std::mem::replace(&mut self.memory, Memory::None) {
+            Memory::None => {}
+            Memory::Shared(allocation) => self.device.free(allocation),
+            // SAFETY: the image that used it is gone.
+            Memory::Lazy(memory) => unsafe { self.device.raw.free_memory(memory, None) },
         }
     }
 }

@@ -2,6 +2,7 @@
 
 use super::error::{Doing, GpuError};
 use super::messages::{self, Messages};
+use super::opener::Opener;
 use ash::{ext, vk};
 use std::ffi::{CStr, CString, c_char};
 use std::sync::Arc;
@@ -32,11 +33,15 @@ pub struct Instance {
 }
 
 impl Instance {
-    /// Loads Vulkan and makes an instance with the surface and debug extensions in `extensions`.
+    /// Loads Vulkan and lets `opener` make an instance with the surface extensions in `extensions`.
     ///
     /// # Errors
     /// [`GpuError::NoLoader`] without a loader, [`GpuError::NoValidation`] where layers were asked for and are missing.
-    pub fn new(validation: Validation, extensions: &[&CStr]) -> Result<Arc<Self>, GpuError> {
+    pub fn new(
+        validation: Validation,
+        extensions: &[&CStr],
+        opener: &dyn Opener,
+    ) -> Result<Arc<Self>, GpuError> {
         // SAFETY: loading the system's Vulkan loader runs its initialisers, which are trusted.
         let entry = unsafe { ash::Entry::load()? };
         // SAFETY: no preconditions.
@@ -80,15 +85,8 @@ impl Instance {
                 info = info.push_next(&mut early);
             }
         }
-        // SAFETY: every pointer in `info` refers to a local that lives past the call.
-        let raw = match unsafe { entry.create_instance(&info, None) } {
-            Err(vk::Result::ERROR_INCOMPATIBLE_DRIVER) => {
-                return Err(GpuError::NoDevice(
-                    "the loader found no driver (Debian: apt-get install mesa-vulkan-drivers)".to_owned(),
-                ));
-            }
-            other => other.doing("creating the Vulkan instance")?,
-        };
+        // The pointers in `info` refer to locals that live past the call.
+        let raw = opener.create_instance(&entry, &info)?;
         let mut instance = Self { raw, entry, debug: None, messages };
         if debug_utils {
             let utils = ext::debug_utils::Instance::new(&instance.entry, &instance.raw);

@@ -28,6 +28,12 @@ pub struct PhysicalDevice {
     pub wireframe: bool,
     /// Anisotropic sampling.
     pub anisotropy: bool,
+    /// Multisampled depth can be resolved in a pass.
+    pub depth_resolve: bool,
+    /// Passes may have a fragment density map.
+    pub density_maps: bool,
+    /// Memory that a tiled GPU gives only to attachments that leave the tile.
+    pub lazy_memory: Option<u32>,
     /// Limits.
     pub limits: vk::PhysicalDeviceLimits,
     /// Identifies the pipeline cache that fits.
@@ -78,6 +84,18 @@ impl PhysicalDevice {
         })
     }
 
+    /// Judges the device that somebody else chose.
+    ///
+    /// # Errors
+    /// It cannot be asked, or lacks something.
+    pub fn given(instance: &Instance, raw: vk::PhysicalDevice) -> Result<Self, GpuError> {
+        let device = Self::describe(instance, raw)?;
+        if device.lacks.is_empty() {
+            return Ok(device);
+        }
+        Err(GpuError::Missing { device: device.name, feature: device.lacks.join(", ") })
+    }
+
     fn describe(instance: &Instance, raw: vk::PhysicalDevice) -> Result<Self, GpuError> {
         // SAFETY: `raw` was enumerated from this living instance.
         let basic = unsafe { instance.raw.get_physical_device_properties(raw) };
@@ -98,6 +116,9 @@ impl PhysicalDevice {
             lacks: Vec::new(),
             wireframe: false,
             anisotropy: false,
+            depth_resolve: false,
+            density_maps: false,
+            lazy_memory: None,
             limits: basic.limits,
             cache_id: basic.pipeline_cache_uuid,
         };
@@ -115,11 +136,24 @@ impl PhysicalDevice {
         device.driver =
             format!("{} {}", text(&driver.driver_name), text(&driver.driver_info)).trim().to_owned();
         let mut multiview = vk::PhysicalDeviceMultiviewFeatures::default();
+        let mut density = vk::PhysicalDeviceFragmentDensityMapFeaturesEXT::default();
         let mut features = vk::PhysicalDeviceFeatures2::default().push_next(&mut multiview);
+        if device.has(ash::ext::fragment_density_map::NAME) {
+            features = features.push_next(&mut density);
+        }
         // SAFETY: as above.
         unsafe { instance.raw.get_physical_device_features2(raw, &mut features) };
         device.wireframe = features.features.fill_mode_non_solid == vk::TRUE;
         device.anisotropy = features.features.sampler_anisotropy == vk::TRUE;
+        // Every driver that resolves depth can take the first sample.
+        device.depth_resolve = device.has(ash::khr::create_renderpass2::NAME)
+            && device.has(ash::khr::depth_stencil_resolve::NAME);
+        // SAFETY: as above.
+        let memory = unsafe { instance.raw.get_physical_device_memory_properties(raw) };
+        device.lazy_memory = (0_u32..).zip(memory.memory_types_as_slice()).find_map(|(index, kind)| {
+            kind.property_flags.contains(vk::MemoryPropertyFlags::LAZILY_ALLOCATED).then_some(index)
+        });
+        device.density_maps = density.fragment_density_map == vk::TRUE;
         if multiview.multiview == vk::FALSE {
             device.lacks.push("the multiview feature".to_owned());
         }

@@ -52,6 +52,29 @@ impl Recorder<'_> {
         unsafe { self.device.raw.cmd_draw(self.raw, vertices, 1, 0, 0) };
     }
 
+    /// Copies mip 0 of `image`, which is in `TRANSFER_SRC_OPTIMAL`, layer after layer to the start of `buffer`, for the
+    /// host to read once the work has ended.
+    pub fn copy_from_image(self, image: &Image, buffer: &Buffer) {
+        let region = [image.copy_region(0, 0)];
+        let layout = vk::ImageLayout::TRANSFER_SRC_OPTIMAL;
+        let barrier = vk::MemoryBarrier::default()
+            .src_access_mask(vk::AccessFlags::TRANSFER_WRITE)
+            .dst_access_mask(vk::AccessFlags::HOST_READ);
+        // SAFETY: recording outside a pass; what filled the image made it readable by copies; the buffer holds its texels.
+        unsafe {
+            self.device.raw.cmd_copy_image_to_buffer(self.raw, image.raw, layout, buffer.raw, &region);
+            self.device.raw.cmd_pipeline_barrier(
+                self.raw,
+                vk::PipelineStageFlags::TRANSFER,
+                vk::PipelineStageFlags::HOST,
+                vk::DependencyFlags::empty(),
+                &[barrier],
+                &[],
+                &[],
+            );
+        }
+    }
+
     /// Fills `image`, which is in `TRANSFER_DST_OPTIMAL`, from `buffer`.
     pub fn copy_to_image(self, buffer: vk::Buffer, image: &Image, regions: &[vk::BufferImageCopy]) {
         let layout = vk::ImageLayout::TRANSFER_DST_OPTIMAL;

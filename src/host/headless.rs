@@ -1,18 +1,17 @@
 //! Frames without a screen: the frame loop around an offscreen target.
 
-use crate::draw::{self, DrawCounts, Eye, Look, Renderer, SkyMap};
+use super::painter::{self, Painter};
+use crate::draw::{self, DrawCounts, Eye, Look};
 use crate::gpu::{
-    Buffer, Commands, Device, FRAMES_IN_FLIGHT, GpuError, Instance, MemoryLocation, PhysicalDevice, Target,
-    TargetInfo, Validation,
+    Buffer, Device, DeviceNeeds, Directly, FRAMES_IN_FLIGHT, GpuError, Instance, MemoryLocation,
+    PhysicalDevice, Target, TargetInfo, Turn, Validation,
 };
 use crate::host::HostError;
-use crate::jobs::Workers;
 use crate::scene::Scene;
-use crate::sea::{Sea, SeaAhead};
+use crate::sea::SeaAhead;
 use ash::vk;
 use std::path::PathBuf;
 use std::sync::Arc;
-use std::thread;
 
 /// What to draw, and with what.
 #[derive(Clone, Debug)]
@@ -46,13 +45,22 @@ pub struct Finished<'a> {
 /// A renderer, its target and its sea.
 pub struct Headless {
     sea: SeaAhead,
-    /// Dropped before what their frames use, since dropping them waits for the frames.
-    commands: Vec<Commands>,
-    renderer: Renderer,
+    /// Dropped before what its frames use, since dropping it waits for them.
+    painter: Painter,
     eyes: Vec<Eye>,
+    offscreen: Offscreen,
+}
+
+/// Where frames go.
+struct Offscreen {
     readback: Vec<Buffer>,
     target: Target,
-    device: Arc<Device>,
+}
+
+impl AsRef<Target> for Offscreen {
+    fn as_ref(&self) -> &Target {
+        &self.target
+    }
 }
 
 impl Headless {
@@ -61,35 +69,12 @@ impl Headless {
     /// # Errors
     /// No usable device, a sky file that cannot be read, a size beyond the device, out of memory.
     pub fn new(scene: &Scene, settings: &HeadlessSettings, first: f64) -> Result<Self, HostError> {
-        thread::scope(|scope| {
-            let sea = scope.spawn(|| begin_sea(scene, settings.threads, first));
-            let sky = scope.spawn(|| SkyMap::new(&scene.sky));
-            let device = open_device(settings)?;
-            let metres = settings.look == Look::Metres;
-            let target = Target::new(
-                &device,
-                TargetInfo {
-                    extent: vk::Extent2D { width: settings.size[0], height: settings.size[1] },
-                    views: if settings.stereo { 2 } else { 1 },
-                    format: if metres { vk::Format::R32_SFLOAT } else { vk::Format::R8G8B8A8_SRGB },
-                    // A height between two surfaces would be the height of neither.
-                    samples: if metres { vk::SampleCountFlags::TYPE_1 } else { vk::SampleCountFlags::TYPE_4 },
-                },
-            )?;
-            let sky = joined(sky.join())??;
-            let renderer = Renderer::new(&device, &target, scene, &sky, settings.look)?;
-            let commands = (0..FRAMES_IN_FLIGHT)
-                .map(|i| Commands::new(&device, &format!("frame {i}")))
-                .collect::<Result<_, GpuError>>()?;
-            let usage = vk::BufferUsageFlags::TRANSFER_DST;
-            let readback = (0..FRAMES_IN_FLIGHT)
-                .map(|_| Buffer::new(&device, "readback", target.bytes(), usage, MemoryLocation::GpuToCpu))
-                .collect::<Result<_, GpuError>>()?;
-            #[expect(clippy::cast_precision_loss, reason = "picture sizes")]
-            let aspect = settings.size[0] as f32 / settings.size[1] as f32;
-            let eyes = draw::eyes(&scene.camera, aspect, settings.stereo);
-            Ok(Self { sea: joined(sea.join())??, commands, renderer, eyes, readback, target, device })
-        })
+        let open = || open(settings);
+        let started = painter::start(scene, settings.look, settings.threads, Some(first), open)?;
+        #[expect(clippy::cast_precision_loss, reason = "picture sizes")]
+        let aspect = settings.size[0] as f32 / settings.size[1] as f32;
+        let eyes = draw::eyes(&scene.camera, aspect, settings.stereo);
+        Ok(Self { sea: started.sea, painter: started.painter, eyes, offscreen: started.opened })
     }
 
     /// Looks from `eyes`, one for each view, from the next frame on; a view without a new eye keeps its own.
@@ -118,10 +103,11 @@ impl Headless {
             let slot = index % FRAMES_IN_FLIGHT;
             let following = times.next();
             let maps = self.sea.next(following)?;
-            let commands = self.commands[slot].begin()?;
-            drawn[slot] = self.renderer.record(commands, &self.target, slot, &self.eyes, maps)?;
-            self.target.copy_to(commands, &self.readback[slot]);
-            self.commands[slot].submit()?;
+            let Offscreen { readback, target } = &self.offscreen;
+            drawn[slot] =
+                self.painter.paint(index, (target, Turn::default()), &self.eyes, maps, |commands| {
+                    target.copy_to(commands, &readback[slot]);
+                })?;
             if let Some(before) = index.checked_sub(1) {
                 self.finish(before, &drawn, &mut take)?;
             }
@@ -139,45 +125,51 @@ impl Headless {
         take: &mut impl FnMut(Finished<'_>) -> Result<(), HostError>,
     ) -> Result<(), HostError> {
         let slot = index % FRAMES_IN_FLIGHT;
-        self.commands[slot].wait()?;
-        let bytes = self.readback[slot].bytes();
-        let length = usize::try_from(self.target.bytes()).unwrap_or(usize::MAX).min(bytes.len());
+        self.painter.wait(index)?;
+        let Offscreen { readback, target } = &self.offscreen;
+        let bytes = readback[slot].bytes();
+        let length = usize::try_from(target.bytes()).unwrap_or(usize::MAX).min(bytes.len());
         take(Finished { index, pixels: &bytes[..length], counts: drawn[slot] })
     }
 
     /// The device drawn on.
     pub fn device(&self) -> &Device {
-        &self.device
+        self.painter.device()
     }
 
     /// Ends everything, and returns what validation has said, the end included: it tells of what was never destroyed.
     pub fn close(self) -> Vec<String> {
-        let heard = self.device.instance().heard();
+        let heard = self.painter.device().instance().heard();
         drop(self);
         heard.all()
     }
 
     /// Bytes uploaded by the latest frame.
     pub const fn uploaded(&self) -> u64 {
-        self.renderer.uploaded()
+        self.painter.uploaded()
     }
 }
 
-fn open_device(settings: &HeadlessSettings) -> Result<Arc<Device>, GpuError> {
-    let instance = Instance::new(settings.validation, &[])?;
+/// Vulkan, and a target with buffers to read it back.
+fn open(settings: &HeadlessSettings) -> Result<(Arc<Device>, Offscreen), HostError> {
+    let instance = Instance::new(settings.validation, &[], &Directly)?;
     let physical = PhysicalDevice::choose(&instance, settings.device.as_deref())?;
-    Device::new(instance, physical, settings.cache.as_deref())
-}
-
-fn begin_sea(scene: &Scene, threads: usize, first: f64) -> Result<SeaAhead, HostError> {
-    let workers = Workers::new(threads)?;
-    let sea = workers.run(|| Sea::new(&scene.sea))?;
-    let mut ahead = SeaAhead::new(sea, workers);
-    ahead.begin(first)?;
-    Ok(ahead)
-}
-
-/// A panic of a helper thread goes on in the caller's.
-fn joined<T>(result: thread::Result<T>) -> Result<T, HostError> {
-    result.map_err(|panic| std::panic::resume_unwind(panic))
+    let needs = DeviceNeeds { cache: settings.cache.as_deref(), ..DeviceNeeds::default() };
+    let device = Device::new(instance, physical, &needs)?;
+    let metres = settings.look == Look::Metres;
+    let target = Target::new(
+        &device,
+        TargetInfo {
+            extent: vk::Extent2D { width: settings.size[0], height: settings.size[1] },
+            views: if settings.stereo { 2 } else { 1 },
+            format: if metres { vk::Format::R32_SFLOAT } else { vk::Format::R8G8B8A8_SRGB },
+            // A height between two surfaces would be the height of neither.
+            samples: if metres { vk::SampleCountFlags::TYPE_1 } else { vk::SampleCountFlags::TYPE_4 },
+        },
+    )?;
+    let usage = vk::BufferUsageFlags::TRANSFER_DST;
+    let readback = (0..FRAMES_IN_FLIGHT)
+        .map(|_| Buffer::new(&device, "readback", target.bytes(), usage, MemoryLocation::GpuToCpu))
+        .collect::<Result<_, GpuError>>()?;
+    Ok((device, Offscreen { readback, target }))
 }

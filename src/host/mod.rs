@@ -2,6 +2,7 @@
 
 mod cpu;
 mod headless;
+mod painter;
 
 pub use cpu::cpu_time;
 pub use headless::{Finished, Headless, HeadlessSettings};

@@ -1,0 +1,134 @@
+//! What every host draws frames with: a renderer, and a command buffer for each frame in flight.
+
+use super::HostError;
+use crate::draw::{DrawCounts, Eye, Look, Renderer, SkyMap};
+use crate::gpu::{Commands, Device, FRAMES_IN_FLIGHT, GpuError, Recorder, Target, Turn};
+use crate::jobs::Workers;
+use crate::scene::Scene;
+use crate::sea::{Sea, SeaAhead, SeaMaps};
+use std::sync::Arc;
+use std::thread;
+
+/// A renderer and its frames in flight.
+pub struct Painter {
+    /// Dropped before what their frames use, since dropping them waits for the frames.
+    commands: Vec<Commands>,
+    renderer: Renderer,
+    device: Arc<Device>,
+}
+
+impl Painter {
+    /// A renderer of `scene`, seen as `look`, for targets like `target`.
+    ///
+    /// # Errors
+    /// Out of memory, or the device cannot draw this look.
+    pub fn new(
+        device: &Arc<Device>,
+        target: &Target,
+        scene: &Scene,
+        sky: &SkyMap,
+        look: Look,
+    ) -> Result<Self, HostError> {
+        let renderer = Renderer::new(device, target, scene, sky, look)?;
+        let commands = (0..FRAMES_IN_FLIGHT)
+            .map(|i| Commands::new(device, &format!("frame {i}")))
+            .collect::<Result<_, GpuError>>()?;
+        Ok(Self { commands, renderer, device: Arc::clone(device) })
+    }
+
+    /// Records frame `index` into `target`, then whatever `after` adds, and hands both to the device. Waits for the frame
+    /// before the last where the device is that far behind.
+    ///
+    /// # Errors
+    /// The device was lost, or the maps are not the scene's.
+    pub fn paint(
+        &mut self,
+        index: usize,
+        (target, turn): (&Target, Turn),
+        eyes: &[Eye],
+        maps: &SeaMaps,
+        after: impl FnOnce(Recorder<'_>),
+    ) -> Result<DrawCounts, HostError> {
+        let slot = index % FRAMES_IN_FLIGHT;
+        let recording = self.commands[slot].begin()?;
+        let counts = self.renderer.record(recording, target, turn, slot, eyes, maps)?;
+        after(recording);
+        self.commands[slot].submit()?;
+        Ok(counts)
+    }
+
+    /// Waits until frame `index`, one of the last [`FRAMES_IN_FLIGHT`], is drawn.
+    ///
+    /// # Errors
+    /// The device was lost.
+    pub fn wait(&self, index: usize) -> Result<(), HostError> {
+        Ok(self.commands[index % FRAMES_IN_FLIGHT].wait()?)
+    }
+
+    /// Waits until every frame is drawn: before what they are drawn into changes.
+    ///
+    /// # Errors
+    /// The device was lost.
+    pub fn wait_all(&self) -> Result<(), HostError> {
+        (0..FRAMES_IN_FLIGHT).try_for_each(|index| self.wait(index))
+    }
+
+    /// The device drawn on.
+    pub const fn device(&self) -> &Arc<Device> {
+        &self.device
+    }
+
+    /// Bytes uploaded by the latest frame.
+    pub const fn uploaded(&self) -> u64 {
+        self.renderer.uploaded()
+    }
+}
+
+/// What a host begins with, besides what it opened itself.
+pub struct Started<T> {
+    /// The sea, its first step on the way where its time was known.
+    pub sea: SeaAhead,
+    /// The sky, for a renderer that has to be made anew.
+    pub sky: SkyMap,
+    /// The renderer.
+    pub painter: Painter,
+    /// What `open` returned.
+    pub opened: T,
+}
+
+/// Makes the sea's spectra and the sky on threads of their own while `open` opens Vulkan and whatever is drawn to, then
+/// the renderer. `threads` workers step the sea (0 for one a core), first to the time `first`, seconds.
+///
+/// # Errors
+/// Those of `open`, a sky file that cannot be read, out of memory.
+pub fn start<T: AsRef<Target>>(
+    scene: &Scene,
+    look: Look,
+    threads: usize,
+    first: Option<f64>,
+    open: impl FnOnce() -> Result<(Arc<Device>, T), HostError>,
+) -> Result<Started<T>, HostError> {
+    thread::scope(|scope| {
+        let sea = scope.spawn(|| begin_sea(scene, threads, first));
+        let sky = scope.spawn(|| SkyMap::new(&scene.sky));
+        let (device, opened) = open()?;
+        let sky = joined(sky.join())??;
+        let painter = Painter::new(&device, opened.as_ref(), scene, &sky, look)?;
+        Ok(Started { sea: joined(sea.join())??, sky, painter, opened })
+    })
+}
+
+fn begin_sea(scene: &Scene, threads: usize, first: Option<f64>) -> Result<SeaAhead, HostError> {
+    let workers = Workers::new(threads)?;
+    let sea = workers.run(|| Sea::new(&scene.sea))?;
+    let mut ahead = SeaAhead::new(sea, workers);
+    if let Some(first) = first {
+        ahead.begin(first)?;
+    }
+    Ok(ahead)
+}
+
+/// A panic of a helper thread goes on in the caller's.
+fn joined<T>(result: thread::Result<T>) -> Result<T, HostError> {
+    result.map_err(|panic| std::panic::resume_unwind(panic))
+}
