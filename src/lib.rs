@@ -26,3 +26,4 @@ pub mod lod;
 pub mod output;
 pub mod scene;
 pub mod sea;
+pub mod xr;

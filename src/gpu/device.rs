@@ -168,8 +168,8 @@ impl Device {
         unsafe { self.raw.queue_submit(*queue, &submits, fence) }.doing("submitting a frame")
     }
 
-    /// The queue, while nobody else uses it.
-    pub(super) fn queue(&self) -> MutexGuard<'_, vk::Queue> {
+    /// The queue, while nobody else uses it: whoever lets a runtime use it holds this meanwhile.
+    pub(crate) fn queue(&self) -> MutexGuard<'_, vk::Queue> {
         self.queue.lock().unwrap_or_else(PoisonError::into_inner)
     }
 

@@ -14,6 +14,12 @@ impl Messages {
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
+    /// One message more. A closed standard error must not end in a panic: the caller is a driver.
+    pub(crate) fn hear(&self, text: &str) {
+        let _closed = writeln!(std::io::stderr(), "validation: {text}");
+        self.list().push(text.to_owned());
+    }
+
     /// All messages so far.
     pub fn all(&self) -> Vec<String> {
         self.list().clone()
@@ -63,9 +69,7 @@ unsafe extern "system" fn receive(
         (CStr::from_ptr(message).to_string_lossy(), &*user.cast::<Messages>())
     };
     if !text.contains(ABOUT_THE_LOADER) {
-        // A closed standard error must not end in a panic: the caller is Vulkan.
-        let _closed = writeln!(std::io::stderr(), "validation: {text}");
-        messages.list().push(text.into_owned());
+        messages.hear(&text);
     }
     vk::FALSE
 }

@@ -1,0 +1,29 @@
+//! OpenXR: the runtime, a session, its images, its hands, and what vendors add.
+//!
+//! Beside `gpu`, which it lets the runtime open; nothing here knows what is drawn. The `openxr` crate loads the functions and
+//! keeps the handles; where its safe functions allocate in every frame, cannot chain structures or hide an expired wait,
+//! the raw ones are called here.
+
+mod bindings;
+mod error;
+pub mod extensions;
+mod frame;
+mod input;
+mod lifecycle;
+mod messages;
+mod notice;
+mod runtime;
+mod session;
+mod swapchain;
+pub mod vendor;
+mod vulkan;
+
+pub use error::XrError;
+pub use frame::{DepthRange, Layer, Motion};
+pub use input::{HANDS, Hand, Input};
+pub use lifecycle::{Demand, Lifecycle};
+pub use notice::Notice;
+pub use openxr::{Duration, EventDataBuffer, SessionState};
+pub use runtime::{About, Runtime, VIEWS, ViewSize, about};
+pub use session::{FrameTime, Pose, Session, View};
+pub use swapchain::{Swapchain, SwapchainInfo, Usage};

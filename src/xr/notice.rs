@@ -1,0 +1,40 @@
+//! Events of a runtime, as far as Swell listens to them.
+
+use openxr::{self as xr, Event};
+
+/// What a runtime has to say.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Notice {
+    /// The session is in another state.
+    State(xr::SessionState),
+    /// The runtime is about to go.
+    InstanceLossPending,
+    /// The floor's origin moves, at this time.
+    Recentred(xr::Time),
+    /// An eye's visible area has changed.
+    MaskChanged,
+    /// A hand holds something else.
+    ProfileChanged,
+    /// The display's refresh rate has changed, hertz.
+    RefreshRate(f32),
+    /// Clocks or heat: the runtime's level for a subdomain has changed.
+    Performance,
+    /// Events were lost, this many.
+    EventsLost(u32),
+}
+
+impl Notice {
+    pub(super) fn of(event: &Event<'_>) -> Option<Self> {
+        Some(match event {
+            Event::SessionStateChanged(change) => Self::State(change.state()),
+            Event::InstanceLossPending(_) => Self::InstanceLossPending,
+            Event::ReferenceSpaceChangePending(change) => Self::Recentred(change.change_time()),
+            Event::VisibilityMaskChangedKHR(_) => Self::MaskChanged,
+            Event::InteractionProfileChanged(_) => Self::ProfileChanged,
+            Event::DisplayRefreshRateChangedFB(change) => Self::RefreshRate(change.to_display_refresh_rate()),
+            Event::PerfSettingsEXT(_) => Self::Performance,
+            Event::EventsLost(lost) => Self::EventsLost(lost.lost_event_count()),
+            _ => return None,
+        })
+    }
+}
