@@ -6,6 +6,8 @@
 //!                                                                                            |
 //!                        lod: quadtree -> stitched patches, culled                           v
 //!                                               \-> draw: one pass on gpu <- double-buffered maps
+//!                                                                                            |
+//!                        eyes in the world <- raft: rider <- heave, pitch, roll <- height query
 //! ```
 //! The sea of frame n + 1 is simulated on worker threads while frame n is drawn.
 //!
@@ -13,8 +15,8 @@
 //! Right-handed, Y up, -Z forward; metres, seconds, radians. See `docs/conventions.md`.
 //!
 //! # Layers
-//! Imports run downwards only: `host` -> `draw` -> `gpu`; `draw` -> `lod`, `sea`, `scene`.
-//! `sea`, `lod` and `scene` know nothing of Vulkan or windows.
+//! Imports run downwards only: `host` -> `draw` -> `gpu`; `draw` -> `lod`, `sea`, `scene`, `raft`; `scene` -> `raft` -> `sea`.
+//! `sea`, `lod`, `raft` and `scene` know nothing of Vulkan or windows.
 #![warn(missing_docs)]
 
 pub mod commands;
@@ -24,6 +26,7 @@ pub mod host;
 pub mod jobs;
 pub mod lod;
 pub mod output;
+pub mod raft;
 pub mod scene;
 pub mod sea;
 pub mod xr;
