@@ -56,6 +56,8 @@ fn check(bytes: &[u8]) {
             assert!(numbers.chain(scene.camera.eye).chain(scene.camera.look).all(f64::is_finite));
             assert!(scene.camera.eye != scene.camera.look);
             assert!((1..=4).contains(&scene.sea.cascades.len()));
+            assert!(scene.raft.check().is_ok() && scene.buoys.len() <= 64);
+            assert!(scene.buoys.iter().all(|buoy| buoy.at.iter().all(|at| at.is_finite())));
         }
         Err(error) => {
             let message = error.to_string();

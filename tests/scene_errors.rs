@@ -34,6 +34,14 @@ fn out_of_range_names_place_value_and_range() {
         "[sky]\nsun_elevation_deg = -5.1\n",
         "x.toml:2:21: sky.sun_elevation_deg = -5.1 is out of range: -5 to 90 degrees",
     );
+    check(
+        "[raft]\nsmooth_turn_deg = 361\n",
+        "x.toml:2:19: raft.smooth_turn_deg = 361 is out of range: 0 to 360 degrees/s",
+    );
+    check(
+        "[[buoy]]\n[[buoy]]\nat = [0, -2e9]\n",
+        "x.toml:3:10: buoy.at = -2e9 is out of range: -1000000000 to 1000000000 m",
+    );
 }
 
 #[test]
@@ -91,6 +99,11 @@ fn wrong_types() {
         "x.toml:1:1: sea.cascade = [sea.cascade] is a table; give tables, each headed [[sea.cascade]]",
     );
     check(
+        "[[buoy]]\nat = [1, 2, 3]\n",
+        "x.toml:2:6: buoy.at = [1, 2, 3] is an array; give two numbers: -1000000000 to 1000000000 m",
+    );
+    check("[buoy]\n", "x.toml:1:1: buoy = [buoy] is a table; give tables, each headed [[buoy]]");
+    check(
         "[sea]\nspectrum = 1\n",
         "x.toml:2:12: sea.spectrum = 1 is a whole number; give a word: \"phillips\", \"jonswap\", \"tma\"",
     );
@@ -102,6 +115,10 @@ fn unknown_words_list_the_words_there_are() {
         "[sea]\nspectrum = \"pierson\"\n",
         "x.toml:2:12: sea.spectrum = \"pierson\" is not one of: \"phillips\", \"jonswap\", \"tma\"",
     );
+    check(
+        "[raft]\nhorizon = \"held\"\n",
+        "x.toml:2:11: raft.horizon = \"held\" is not one of: \"rides\", \"still\"",
+    );
     check("[sea]\nmodel = \"waves\"\n", "x.toml:2:9: sea.model = \"waves\" is not one of: \"fft\"");
 }
 
@@ -110,6 +127,10 @@ fn unknown_keys_suggest_the_one_meant() {
     check(
         "[sea]\nwindspeed = 3\n",
         "x.toml:2:1: sea.windspeed is not a key of a scene; did you mean wind_speed?",
+    );
+    check(
+        "[[buoy]]\nmast = 3\n",
+        "x.toml:2:1: buoy.mast is not a key of a scene; here may stand: at, radius, color, height",
     );
     check("[sae]\nwind_speed = 3\n", "x.toml:1:2: sae is not a key of a scene; did you mean sea?");
     check(
@@ -196,6 +217,13 @@ fn at_most_four_cascades() {
     let message = refused(&cascades(&[400, 100, 25, 6, 2]));
     assert!(message.starts_with("x.toml:9:1: sea.cascade"), "{message}");
     assert!(message.contains("at most 4"), "{message}");
+}
+
+#[test]
+fn at_most_sixty_four_buoys() {
+    let buoys = |count| "[[buoy]]\n".repeat(count);
+    assert_eq!(Scene::parse(&buoys(64), "x.toml").unwrap().buoys.len(), 64);
+    check(&buoys(65), "x.toml:65:1: buoy = [[buoy]] is one buoy too many: at most 64");
 }
 
 #[test]

@@ -1,7 +1,8 @@
 //! What scene files that are in order turn into.
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
-use std::f64::consts::{FRAC_PI_2, PI};
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use swell::lod::Quality;
+use swell::raft::{BuoySettings, Horizon, RaftSettings, Rider};
 use swell::scene::{Scene, SkySource};
 use swell::sea::{NormalKind, Sea, Spectrum, Surface, split_bands};
 
@@ -22,6 +23,8 @@ fn an_empty_file_is_a_scene_of_one_cascade_with_all_waves() {
     assert_eq!(scene.sky.source, SkySource::Daylight { turbidity: 3.0, clouds: 0.0 });
     assert_eq!(scene.lod.quality, Quality::Medium);
     assert_eq!(scene.lod.levels, None);
+    assert_eq!(scene.raft, RaftSettings::default());
+    assert_eq!(scene.buoys, []);
 }
 
 #[test]
@@ -34,7 +37,11 @@ fn every_key_reaches_its_own_field() {
          [lod]\nsize = 512\nquality = 'ultra'\nlevels = 3\nmax_height = 4\nreach = 5\nskirt_extent = 6\n\
          [sky]\nturbidity = 2\nclouds = 0.25\nsun_azimuth_deg = -180\nsun_elevation_deg = 90\nsun_intensity = 3\nexposure = -4\nvisibility = 500\n\
          [water]\ndeep_color = [0.1, 0.2, 0.3]\nscatter_color = [0.4, 0.5, 0.6]\nscatter = 7\nfoam_color = [0.8, 0.9, 1]\ndetail = 2.5\n\
-         [camera]\neye = [1, 2, 3]\nlook = [4, 5, 6]\nfov_deg = 90\neye_separation = 0.5\n",
+         [camera]\neye = [1, 2, 3]\nlook = [4, 5, 6]\nfov_deg = 90\neye_separation = 0.5\n\
+         [raft]\nlength = 3\nwidth = 4\nfreeboard = 0.5\nheave_frequency = 0.6\nheave_damping = 0.75\ntilt_frequency = 0.8\n\
+         tilt_damping = 0.9\nhorizon = 'still'\nheld_heave = 0.25\nglide_speed = 11\nglide_acceleration = 12\ndead_zone = 0.3\n\
+         snap_turn_deg = 90\nsmooth_turn_deg = 180\nvignette = 0.4\n\
+         [[buoy]]\nat = [1, -2]\nradius = 3\ncolor = [0.1, 0.2, 0.3]\nheight = 4\n[[buoy]]\n",
     );
     let sea = &scene.sea;
     let c = &sea.cascades[0];
@@ -58,6 +65,27 @@ fn every_key_reaches_its_own_field() {
     let camera = &scene.camera;
     assert_eq!((camera.eye, camera.look), ([1.0, 2.0, 3.0], [4.0, 5.0, 6.0]));
     assert_eq!((camera.fov_y, camera.eye_separation), (FRAC_PI_2, 0.5));
+    let raft = RaftSettings {
+        length: 3.0,
+        width: 4.0,
+        freeboard: 0.5,
+        heave_frequency: 0.6,
+        heave_damping: 0.75,
+        tilt_frequency: 0.8,
+        tilt_damping: 0.9,
+        horizon: Horizon::Still,
+        held_heave: 0.25,
+        glide_speed: 11.0,
+        glide_acceleration: 12.0,
+        dead_zone: 0.3,
+        snap_turn: FRAC_PI_2,
+        smooth_turn: PI,
+        vignette: 0.4,
+    };
+    assert_eq!(scene.raft, raft);
+    let given = BuoySettings { at: [1.0, -2.0], radius: 3.0, color: [0.1, 0.2, 0.3], height: 4.0 };
+    let absent = BuoySettings { at: [0.0, -20.0], radius: 0.5, color: [0.8, 0.12, 0.02], height: 2.0 };
+    assert_eq!(scene.buoys, [given, absent]);
 }
 
 #[test]
@@ -161,4 +189,35 @@ fn whatever_the_schema_allows_makes_a_sea() {
         Sea::new(&scene.sea).unwrap();
         assert!(scene.lod.reach.is_finite() && scene.lod.max_height.unwrap().is_finite());
     }
+}
+
+#[test]
+fn whatever_the_schema_allows_makes_a_raft() {
+    let extremes = [
+        "length = 0.5\nwidth = 0.5\nfreeboard = 0\nheave_frequency = 0.1\nheave_damping = 0.05\ntilt_frequency = 0.1\n\
+         tilt_damping = 0.05\nheld_heave = 0\nglide_speed = 0\nglide_acceleration = 0.1\ndead_zone = 0\nsnap_turn_deg = 1\n\
+         smooth_turn_deg = 0\nvignette = 0",
+        "length = 20\nwidth = 20\nfreeboard = 5\nheave_frequency = 10\nheave_damping = 1\ntilt_frequency = 10\n\
+         tilt_damping = 1\nheld_heave = 1\nglide_speed = 20\nglide_acceleration = 100\ndead_zone = 0.9\nsnap_turn_deg = 90\n\
+         smooth_turn_deg = 360\nvignette = 1\n[camera]\neye = [1e9, 0, -1e9]",
+    ];
+    for extreme in extremes {
+        let scene = parse(&format!("[raft]\n{extreme}\n"));
+        Rider::new(&scene.raft, scene.camera.ground(), scene.camera.heading()).unwrap();
+    }
+}
+
+#[test]
+fn a_rider_begins_under_the_camera_and_looks_where_it_looks() {
+    let heading = |x: f64, z: f64| {
+        let camera =
+            parse(&format!("[camera]\neye = [100, 4, -30]\nlook = [{}, 0, {}]", 100.0 + x, z - 30.0)).camera;
+        assert_eq!(camera.ground().to_array(), [100.0, -30.0]);
+        camera.heading()
+    };
+    assert_eq!(heading(0.0, -1.0), 0.0);
+    assert_eq!(heading(-1.0, 0.0), FRAC_PI_2);
+    assert_eq!(heading(1.0, 0.0), -FRAC_PI_2);
+    assert_eq!(heading(0.0, 0.0), 0.0);
+    assert!((heading(-1.0, -1.0) - TAU / 8.0).abs() < 1e-12);
 }

@@ -5,6 +5,7 @@ use super::key::Key;
 use super::reader::{Reader, excerpt};
 use super::{CameraSettings, Scene, SkySettings, SkySource, WaterSettings, schema};
 use crate::lod::LodSettings;
+use crate::raft::{BuoySettings, MAX_BUOYS, RaftSettings};
 use crate::sea::settings::MAX_CASCADES;
 use crate::sea::{CascadeSettings, FoamSettings, SeaSettings, split_bands};
 use std::ops::Range;
@@ -27,13 +28,15 @@ pub(super) fn assemble(text: &str, file: &str) -> Result<Scene, SceneError> {
     })?;
     let root = document.get_ref();
     let mut reader = Reader::new(file, text);
-    reader.check_names("", root, &[], &["sea", "lod", "sky", "water", "camera"]);
+    reader.check_names("", root, &[], &["sea", "lod", "sky", "water", "camera", "raft", "buoy"]);
 
     let sea = read_sea(&mut reader, root);
     let sky = read_sky(&mut reader, root, file);
     let water: WaterSettings = read_section(&mut reader, root, "water", schema::WATER);
     let camera = read_camera(&mut reader, root);
     let lod: LodDraft = read_section(&mut reader, root, "lod", schema::LOD);
+    let raft: RaftSettings = read_section(&mut reader, root, "raft", schema::RAFT);
+    let buoys = read_buoys(&mut reader, root);
     reader.finish()?;
 
     let lod = LodSettings {
@@ -41,7 +44,7 @@ pub(super) fn assemble(text: &str, file: &str) -> Result<Scene, SceneError> {
         reach: lod.reach.unwrap_or_else(|| sea.reach()),
         ..lod.settings
     };
-    Ok(Scene { sea, lod, sky, water, camera })
+    Ok(Scene { sea, lod, sky, water, camera, raft, buoys })
 }
 
 /// A value with all defaults of `keys`.
@@ -218,4 +221,19 @@ fn read_camera(reader: &mut Reader<'_>, root: &DeTable<'_>) -> CameraSettings {
         reader.contradiction(format!("camera.{name}"), item.span(), problem);
     }
     camera
+}
+
+fn read_buoys(reader: &mut Reader<'_>, root: &DeTable<'_>) -> Vec<BuoySettings> {
+    let tables = reader.tables("", root, "buoy");
+    if let Some((_, span)) = tables.get(MAX_BUOYS) {
+        let problem = format!("is one buoy too many: at most {MAX_BUOYS}");
+        reader.contradiction("buoy".to_owned(), span.clone(), problem);
+    }
+    let read = |(table, _)| {
+        let mut buoy = defaults(schema::BUOY);
+        reader.check_names("buoy", table, &names(schema::BUOY), &[]);
+        reader.read("buoy", table, schema::BUOY, &mut buoy);
+        buoy
+    };
+    tables.into_iter().take(MAX_BUOYS).map(read).collect()
 }

@@ -1,6 +1,7 @@
 //! Sections of a scene while they are being read: the settings they end as, and the few keys that need each other.
 use super::{CameraSettings, WaterSettings};
 use crate::lod::{LodSettings, Quality};
+use crate::raft::{BuoySettings, Horizon, RaftSettings};
 use crate::sea::{CascadeSettings, FoamSettings, NormalKind, SeaSettings, Spectrum};
 
 /// A cascade, `[[sea.cascade]]`; also the keys of `[sea]` that every cascade starts from.
@@ -122,4 +123,28 @@ impl Blank for WaterSettings {
 
 impl Blank for CameraSettings {
     const BLANK: Self = Self { eye: [0.0; 3], look: [0.0; 3], fov_y: 0.0, eye_separation: 0.0 };
+}
+
+impl Blank for RaftSettings {
+    const BLANK: Self = Self {
+        length: 0.0,
+        width: 0.0,
+        freeboard: 0.0,
+        heave_frequency: 0.0,
+        heave_damping: 0.0,
+        tilt_frequency: 0.0,
+        tilt_damping: 0.0,
+        horizon: Horizon::Rides,
+        held_heave: 0.0,
+        glide_speed: 0.0,
+        glide_acceleration: 0.0,
+        dead_zone: 0.0,
+        snap_turn: 0.0,
+        smooth_turn: 0.0,
+        vignette: 0.0,
+    };
+}
+
+impl Blank for BuoySettings {
+    const BLANK: Self = Self { at: [0.0; 2], radius: 0.0, color: [0.0; 3], height: 0.0 };
 }

@@ -22,6 +22,8 @@ pub(super) enum Kind<T: 'static> {
     Integer { range: [u64; 2], absent: Absent<u64>, set: fn(&mut T, u64) },
     /// A power of two within `range`, ends included.
     PowerOfTwo { range: [u64; 2], absent: Absent<u64>, set: fn(&mut T, u64) },
+    /// Two finite numbers, each within `range`.
+    Pair { range: [f64; 2], absent: Absent<[f64; 2]>, set: fn(&mut T, [f64; 2]) },
     /// Three finite numbers, each within `range`.
     Triple { range: [f64; 2], absent: Absent<[f64; 3]>, set: fn(&mut T, [f64; 3]) },
     /// Two numbers, `0 <= low < high`, of which the second may be infinite.
@@ -52,6 +54,7 @@ impl<T> Key<T> {
             Kind::Angle { absent: Absent::Is(value), set, .. } => set(into, value.to_radians()),
             Kind::Integer { absent: Absent::Is(value), set, .. }
             | Kind::PowerOfTwo { absent: Absent::Is(value), set, .. } => set(into, value),
+            Kind::Pair { absent: Absent::Is(value), set, .. } => set(into, value),
             Kind::Triple { absent: Absent::Is(value), set, .. } => set(into, value),
             Kind::Word { words, absent } => {
                 if let Some((_, set)) = words.iter().find(|(word, _)| *word == absent) {
@@ -69,7 +72,7 @@ impl<T> Key<T> {
             Kind::Integer { .. } => "a whole number",
             Kind::PowerOfTwo { .. } => "a power of two",
             Kind::Triple { .. } => "three numbers",
-            Kind::Band { .. } => "two numbers",
+            Kind::Pair { .. } | Kind::Band { .. } => "two numbers",
             Kind::Word { .. } => "a word",
             Kind::Path { .. } => "a path",
         }
@@ -80,6 +83,7 @@ impl<T> Key<T> {
         match self.kind {
             Kind::Number { range: [min, max], .. }
             | Kind::Angle { range: [min, max], .. }
+            | Kind::Pair { range: [min, max], .. }
             | Kind::Triple { range: [min, max], .. } => format!("{min} to {max}"),
             Kind::Integer { range: [min, max], .. } | Kind::PowerOfTwo { range: [min, max], .. } => {
                 format!("{min} to {max}")
@@ -109,6 +113,7 @@ impl<T> Key<T> {
         match self.kind {
             Kind::Number { absent, .. } | Kind::Angle { absent, .. } => text(absent, |v| v.to_string()),
             Kind::Integer { absent, .. } | Kind::PowerOfTwo { absent, .. } => text(absent, |v| v.to_string()),
+            Kind::Pair { absent, .. } => text(absent, |[a, b]| format!("[{a}, {b}]")),
             Kind::Triple { absent, .. } => text(absent, |[a, b, c]| format!("[{a}, {b}, {c}]")),
             Kind::Word { absent, .. } => format!("\"{absent}\""),
             Kind::Band { absent, .. } | Kind::Path { absent, .. } => absent.to_owned(),

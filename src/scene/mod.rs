@@ -2,7 +2,12 @@
 //!
 //! `schema` holds every key with its unit, range and default; `reader` checks a file against it and finds the place of
 //! whatever is wrong; `assemble` checks what keys say together. `docs/scene.md` is [`reference`]'s text.
-use crate::{lod::LodSettings, sea::SeaSettings};
+use crate::{
+    lod::LodSettings,
+    raft::{BuoySettings, RaftSettings},
+    sea::SeaSettings,
+};
+use glam::DVec2;
 use std::fs::File;
 use std::io::Read;
 use std::path::{Path, PathBuf};
@@ -35,6 +40,10 @@ pub struct Scene {
     pub water: WaterSettings,
     /// From where it is seen.
     pub camera: CameraSettings,
+    /// What a rider in a headset stands on, and how they move.
+    pub raft: RaftSettings,
+    /// Floating markers, at most [`crate::raft::MAX_BUOYS`].
+    pub buoys: Vec<BuoySettings>,
 }
 
 impl Scene {
@@ -145,4 +154,18 @@ pub struct CameraSettings {
     pub fov_y: f64,
     /// Distance between the eyes, metres (`--stereo`).
     pub eye_separation: f64,
+}
+
+impl CameraSettings {
+    /// World (x, z) under the camera, metres: where a rider's raft begins.
+    pub fn ground(&self) -> DVec2 {
+        DVec2::new(self.eye[0], self.eye[2])
+    }
+
+    /// Direction looked in as seen from above, radians about +Y: 0 along -Z, pi/2 along -X. Straight up or down it is 0, as
+    /// the camera's right is +X then.
+    pub fn heading(&self) -> f64 {
+        let [x, z] = [self.look[0] - self.eye[0], self.look[2] - self.eye[2]];
+        if x == 0.0 && z == 0.0 { 0.0 } else { libm::atan2(-x, -z) }
+    }
 }

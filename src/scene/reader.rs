@@ -130,6 +130,14 @@ impl<'s> Reader<'s> {
                 Some(_) => self.out_of_range(path, item, "not a power of two", key),
                 None => {}
             },
+            Kind::Pair { range, set, .. } => {
+                if let Some([a, b]) = self.array(path, item, key)
+                    && let Some(a) = self.number(path, a, range, key)
+                    && let Some(b) = self.number(path, b, range, key)
+                {
+                    set(into, [a, b]);
+                }
+            }
             Kind::Triple { range, set, .. } => {
                 if let Some([a, b, c]) = self.array(path, item, key)
                     && let Some(a) = self.number(path, a, range, key)

@@ -24,6 +24,14 @@ cascade leaves out has the value of `[sea]`. With no `[[sea.cascade]]` there is 
 that carries all wave numbers.
 ";
 
+const RAFT: &str = "
+What a rider in a headset stands on; see `raft.md`. It begins under the camera and looks where the camera looks.
+";
+
+const BUOYS: &str = "
+At most 64 balls with masts that float on the waves.
+";
+
 /// The text of `docs/scene.md`: every key of a scene file with its type, unit, range, default and meaning.
 pub fn reference() -> String {
     let mut text = HEAD.to_owned();
@@ -37,9 +45,12 @@ fn write_section(text: &mut String, section: &Section) {
     // Writing to a string cannot fail.
     let _ = writeln!(text, "\n## {}", section.header);
     let is_cascade = section.path == "sea.cascade";
-    if is_cascade {
-        text.push_str(CASCADES);
-    }
+    text.push_str(match section.path {
+        "sea.cascade" => CASCADES,
+        "raft" => RAFT,
+        "buoy" => BUOYS,
+        _ => "",
+    });
     text.push_str("\n| key | type | unit | range | default | meaning |\n|---|---|---|---|---|---|\n");
     for row in &section.rows {
         if is_cascade && row.inherited {

@@ -5,6 +5,10 @@ use super::{CameraSettings, WaterSettings};
 use crate::lod::Quality;
 use crate::sea::{FoamSettings, NormalKind, SeaSettings, Spectrum};
 
+mod raft;
+
+pub(super) use raft::{BUOY, RAFT};
+
 /// Keys of `[sea]` that hold for the sea as a whole.
 pub(super) static SEA: &[Key<SeaSettings>] = &[
     word(

@@ -53,6 +53,8 @@ pub(super) fn all() -> Vec<Section> {
         section("sky", "[sky]", rows(schema::SKY).collect()),
         section("water", "[water]", rows(schema::WATER).collect()),
         section("camera", "[camera]", rows(schema::CAMERA).collect()),
+        section("raft", "[raft]", rows(schema::RAFT).collect()),
+        section("buoy", "[[buoy]]", rows(schema::BUOY).collect()),
     ]
 }
 
