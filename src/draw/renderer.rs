@@ -1,8 +1,9 @@
 //! One frame: the maps uploaded, the sea and the sky drawn in one pass. Hosts decide when, from where and into what.
 
-use super::camera::{self, Eye};
+use super::camera;
 use super::debug_view::Look;
 use super::foam_pattern;
+use super::moment::Moment;
 use super::ocean::{DrawCounts, Ocean};
 use super::sea_textures::SeaTextures;
 use super::shaders::BINDINGS;
@@ -15,7 +16,6 @@ use crate::gpu::{
 };
 use crate::lod::{Frustum, LodError, Quadtree, vertex_spacing};
 use crate::scene::Scene;
-use crate::sea::SeaMaps;
 use ash::vk;
 use std::sync::Arc;
 
@@ -113,8 +113,8 @@ impl Renderer {
         })
     }
 
-    /// Records one frame seen by `eyes` (one for each of the target's views) with the sea of `maps` into the images whose
-    /// `turn` it is. `slot` is the frame in flight whose last use has ended.
+    /// Records one frame of `moment` into the images whose `turn` it is. `slot` is the frame in flight whose last use has
+    /// ended.
     ///
     /// # Errors
     /// The upload ring is too small, which means that the maps are not the scene's.
@@ -124,9 +124,9 @@ impl Renderer {
         target: &Target,
         turn: Turn,
         slot: usize,
-        eyes: &[Eye],
-        maps: &SeaMaps,
+        moment: Moment<'_>,
     ) -> Result<DrawCounts, DrawError> {
+        let Moment { eyes, maps, .. } = moment;
         let head = camera::head(eyes);
         self.frusta.clear();
         self.frusta.extend(eyes.iter().map(|eye| eye.frustum(head)));

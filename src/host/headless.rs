@@ -1,7 +1,7 @@
 //! Frames without a screen: the frame loop around an offscreen target.
 
 use super::painter::{self, Painter};
-use crate::draw::{self, DrawCounts, Eye, Look};
+use crate::draw::{self, DrawCounts, Eye, Look, Moment};
 use crate::gpu::{
     Buffer, Device, DeviceNeeds, Directly, FRAMES_IN_FLIGHT, GpuError, Instance, MemoryLocation,
     PhysicalDevice, Target, TargetInfo, Turn, Validation,
@@ -104,10 +104,10 @@ impl Headless {
             let following = times.next();
             let maps = self.sea.next(following)?;
             let Offscreen { readback, target } = &self.offscreen;
-            drawn[slot] =
-                self.painter.paint(index, (target, Turn::default()), &self.eyes, maps, |commands| {
-                    target.copy_to(commands, &readback[slot]);
-                })?;
+            let moment = Moment { eyes: &self.eyes, maps, solids: &[], vignette: 0.0 };
+            drawn[slot] = self.painter.paint(index, (target, Turn::default()), moment, |commands| {
+                target.copy_to(commands, &readback[slot]);
+            })?;
             if let Some(before) = index.checked_sub(1) {
                 self.finish(before, &drawn, &mut take)?;
             }

@@ -1,11 +1,11 @@
 //! What every host draws frames with: a renderer, and a command buffer for each frame in flight.
 
 use super::HostError;
-use crate::draw::{DrawCounts, Eye, Look, Renderer, SkyMap};
+use crate::draw::{DrawCounts, Look, Moment, Renderer, SkyMap};
 use crate::gpu::{Commands, Device, FRAMES_IN_FLIGHT, GpuError, Recorder, Target, Turn};
 use crate::jobs::Workers;
 use crate::scene::Scene;
-use crate::sea::{Sea, SeaAhead, SeaMaps};
+use crate::sea::{Sea, SeaAhead};
 use std::sync::Arc;
 use std::thread;
 
@@ -45,13 +45,12 @@ impl Painter {
         &mut self,
         index: usize,
         (target, turn): (&Target, Turn),
-        eyes: &[Eye],
-        maps: &SeaMaps,
+        moment: Moment<'_>,
         after: impl FnOnce(Recorder<'_>),
     ) -> Result<DrawCounts, HostError> {
         let slot = index % FRAMES_IN_FLIGHT;
         let recording = self.commands[slot].begin()?;
-        let counts = self.renderer.record(recording, target, turn, slot, eyes, maps)?;
+        let counts = self.renderer.record(recording, target, turn, slot, moment)?;
         after(recording);
         self.commands[slot].submit()?;
         Ok(counts)
