@@ -20,6 +20,8 @@ struct Frame {
     view_projection: array<mat4x4f, 2>,
     // From clip space (x, y, 0, 1) to a direction.
     clip_to_ray: array<mat4x4f, 2>,
+    // From tangents of angles to the right and up (x, y) to clip space: factors in xy, then summands in zw.
+    view_scale: array<vec4f, 2>,
     // The eyes, relative to the origin.
     eyes: array<vec4f, 2>,
     // The head: where level of detail is measured from, the same for both views.
@@ -45,6 +47,8 @@ struct Frame {
     lod: vec4f,
     // x: extinction of the air, 1/m; y: exposure; z: finest sky mip for alpha 1; w: coarsest spacing.
     air: vec4f,
+    // x, y: angles from a view's axis where the vignette begins and where it is complete, radians.
+    vignette: vec4f,
 }
 
 @group(0) @binding(0) var<uniform> frame: Frame;

@@ -37,6 +37,13 @@ impl Fov {
             Vec4::new(0.0, 0.0, NEAR, 0.0),
         )
     }
+
+    /// From tangents of angles to the right and up to clip space at any distance: factors in xy, summands in zw.
+    pub fn scale(self) -> Vec4 {
+        let (width, height) = (self.right - self.left, self.up - self.down);
+        let middle = [-(self.right + self.left) / width, (self.up + self.down) / height];
+        Vec4::new(2.0 / width, -2.0 / height, middle[0], middle[1])
+    }
 }
 
 /// One view.
@@ -93,6 +100,7 @@ pub fn head(eyes: &[Eye]) -> DVec3 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use glam::{Vec2, Vec4Swizzles};
 
     fn camera() -> CameraSettings {
         CameraSettings { eye: [3.0, 2.0, 5.0], look: [3.0, 2.0, -10.0], fov_y: 1.0, eye_separation: 0.064 }
@@ -124,6 +132,18 @@ mod tests {
             let clip = eye.view_projection(eye.position) * ray.truncate().extend(0.0);
             assert!((clip.x / clip.w - x).abs() < 1e-5 && (clip.y / clip.w - y).abs() < 1e-5);
             assert!(clip.w > 0.0);
+        }
+    }
+
+    #[test]
+    fn tangents_land_where_points_do() {
+        let fov = Fov { left: -1.2, right: 0.8, up: 0.7, down: -1.1 };
+        let eye = Eye { axes: Mat3::IDENTITY, fov, ..eyes(&camera(), 1.5, false)[0] };
+        let scale = fov.scale();
+        for (x, y) in [(-1.2, 0.7), (0.8, -1.1), (0.1, 0.2)] {
+            let clip = eye.view_projection(eye.position) * Vec4::new(3.0 * x, 3.0 * y, -3.0, 1.0);
+            let place = Vec2::new(x, y) * scale.xy() + scale.zw();
+            assert!((clip.xy() / clip.w - place).length() < 1e-6, "{clip} {place}");
         }
     }
 

@@ -68,6 +68,16 @@ impl Look {
         !matches!(self, Self::Holes | Self::Metres | Self::Wireframe)
     }
 
+    /// Whether things float on it.
+    pub(super) const fn has_solids(self) -> bool {
+        matches!(self, Self::Water)
+    }
+
+    /// Whether it is a picture for eyes, which a vignette may darken.
+    pub(super) const fn has_vignette(self) -> bool {
+        !matches!(self, Self::Metres)
+    }
+
     /// What shows where nothing is drawn.
     pub(super) const fn clear(self) -> [f32; 4] {
         match self {

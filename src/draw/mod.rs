@@ -2,29 +2,41 @@
 //!
 //! Nothing here knows what it draws to or when: a host (`host::headless` so far) brings a target, the eyes and the maps.
 
+mod buoy;
 pub mod camera;
 mod clouds;
+mod counts;
 mod daylight;
 mod debug_view;
 mod foam_pattern;
+mod hands;
+mod hidden_area;
 mod moment;
 mod ocean;
+mod raft;
 mod renderer;
 mod sea_textures;
 mod sky;
 mod sky_map;
 mod sky_picture;
+mod solid_meshes;
 mod solids;
 mod uniforms;
+mod vertex_input;
+mod vignette;
 
+pub use buoy::{BUOY_SOLIDS, Buoy};
 pub use camera::{Eye, Fov, eyes};
+pub use counts::DrawCounts;
 pub use debug_view::Look;
+pub use hands::{HAND_SOLIDS, Hand, hand, ray};
+pub use hidden_area::HiddenMesh;
 pub use moment::Moment;
-pub use ocean::DrawCounts;
+pub use raft::{RAFT_SOLIDS, Raft};
 pub use renderer::{DrawError, Renderer};
 pub use sky_map::SkyMap;
 pub use sky_picture::SkyError;
-pub use solids::{MOST_SOLIDS, Shape, Solid};
+pub use solids::{MOST_SOLIDS, Pose, Shape, Solid};
 
 /// SPIR-V and reflection, written by build.rs.
 pub mod shaders {

@@ -1,12 +1,15 @@
 //! The sea's patches and skirt.
 
+use super::counts::DrawCounts;
 use super::shaders;
+use super::vertex_input::{by_instance, by_vertex, field};
 use crate::gpu::{
-    Bindings, Buffer, DepthUse, Device, GpuError, Pipeline, PipelineInfo, Recorder, Target, UploadRing,
-    VertexInput, upload_buffer,
+    Bindings, Blend, Buffer, DepthUse, Device, GpuError, Pipeline, PipelineInfo, Recorder, Target,
+    UploadRing, VertexInput, upload_buffer,
 };
 use crate::lod::{self, Pattern, Selection};
 use ash::vk;
+use std::collections::BTreeSet;
 use std::ffi::CStr;
 use std::ops::Range;
 use std::sync::Arc;
@@ -29,19 +32,10 @@ pub struct Ocean {
     indices: Buffer,
     /// Where each pattern's indices are in `indices`.
     patterns: Vec<Range<u32>>,
+    /// How many vertices of the grid each pattern uses.
+    pattern_vertices: Vec<u32>,
     skirt_vertices: Buffer,
     skirt_indices: Buffer,
-}
-
-/// What a frame's sea took to draw.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct DrawCounts {
-    /// Draw calls.
-    pub draws: u32,
-    /// Patches.
-    pub patches: u32,
-    /// Triangles, of patches and skirt, for each view.
-    pub triangles: u32,
 }
 
 impl Ocean {
@@ -61,11 +55,13 @@ impl Ocean {
         let grid = lod::grid::vertices(cells);
         let vertices =
             upload_buffer(device, "grid", bytemuck::cast_slice(&grid), vk::BufferUsageFlags::VERTEX_BUFFER)?;
-        let (mut all, mut patterns): (Vec<u16>, _) = (Vec::new(), Vec::new());
+        let (mut all, mut patterns, mut pattern_vertices) = (Vec::<u16>::new(), Vec::new(), Vec::new());
         for pattern in Pattern::all() {
             let start = all.len() as u32;
             all.extend(lod::grid::indices(cells, pattern));
             patterns.push(start..all.len() as u32);
+            let used: BTreeSet<u16> = all[start as usize..].iter().copied().collect();
+            pattern_vertices.push(used.len() as u32);
         }
         let indices = upload_buffer(
             device,
@@ -93,6 +89,8 @@ impl Ocean {
                 fragment: (layer.fragment, layer.entry),
                 input,
                 depth: if layer.lines { DepthUse::Raised } else { DepthUse::Solid },
+                blend: Blend::Opaque,
+                cull: false,
                 lines: layer.lines,
             };
             let patch = info("patches", shaders::OCEAN_VERTEX_MAIN[cascades - 1], PATCH_INPUT);
@@ -104,7 +102,7 @@ impl Ocean {
             ])
         };
         let layers = layers.iter().map(make).collect::<Result<_, GpuError>>()?;
-        Ok(Self { layers, vertices, indices, patterns, skirt_vertices, skirt_indices })
+        Ok(Self { layers, vertices, indices, patterns, pattern_vertices, skirt_vertices, skirt_indices })
     }
 
     /// Records the draws of `selection`, inside the pass.
@@ -131,16 +129,15 @@ impl Ocean {
                 let indices = self.patterns[batch.pattern.index()].clone();
                 let (triangles, patches) = (indices.len() as u32 / 3, batch.instances.len() as u32);
                 commands.draw_indexed(indices, batch.instances);
-                counts.draws += 1;
+                counts += DrawCounts::draw(triangles, self.pattern_vertices[batch.pattern.index()], patches);
                 counts.patches += patches;
-                counts.triangles += triangles * patches;
             }
             skirt.bind(commands);
             commands.vertex_buffer(0, self.skirt_vertices.raw, 0);
             commands.index_buffer(&self.skirt_indices);
             commands.draw_indexed(0..lod::skirt::SKIRT_INDICES as u32, 0..1);
-            counts.draws += 1;
-            counts.triangles += lod::skirt::SKIRT_INDICES as u32 / 3;
+            let skirt = [lod::skirt::SKIRT_INDICES / 3, lod::skirt::SKIRT_VERTICES].map(|n| n as u32);
+            counts += DrawCounts::draw(skirt[0], skirt[1], 1);
         }
         commands.end_label();
         Ok(counts)
@@ -152,29 +149,9 @@ impl Ocean {
     }
 }
 
-const fn field(
-    location: u32,
-    binding: u32,
-    format: vk::Format,
-    offset: u32,
-) -> vk::VertexInputAttributeDescription {
-    vk::VertexInputAttributeDescription { location, binding, format, offset }
-}
-
-const fn buffer(
-    binding: u32,
-    stride: u32,
-    input_rate: vk::VertexInputRate,
-) -> vk::VertexInputBindingDescription {
-    vk::VertexInputBindingDescription { binding, stride, input_rate }
-}
-
 /// `Patch` of `shaders/ocean.wgsl`: a grid vertex, and an instance of [`lod::Instance`].
 const PATCH_INPUT: VertexInput<'static> = VertexInput {
-    bindings: &[
-        buffer(0, 4, vk::VertexInputRate::VERTEX),
-        buffer(1, size_of::<lod::Instance>() as u32, vk::VertexInputRate::INSTANCE),
-    ],
+    bindings: &[by_vertex(0, 4), by_instance(1, size_of::<lod::Instance>())],
     attributes: &[
         field(0, 0, vk::Format::R16G16_UINT, 0),
         field(1, 1, vk::Format::R32G32B32A32_SFLOAT, 0),
@@ -184,6 +161,6 @@ const PATCH_INPUT: VertexInput<'static> = VertexInput {
 
 /// [`lod::SkirtVertex`].
 const SKIRT_INPUT: VertexInput<'static> = VertexInput {
-    bindings: &[buffer(0, size_of::<lod::SkirtVertex>() as u32, vk::VertexInputRate::VERTEX)],
+    bindings: &[by_vertex(0, size_of::<lod::SkirtVertex>())],
     attributes: &[field(0, 0, vk::Format::R32G32B32A32_SFLOAT, 0)],
 };

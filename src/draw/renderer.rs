@@ -1,15 +1,19 @@
 //! One frame: the maps uploaded, the sea and the sky drawn in one pass. Hosts decide when, from where and into what.
 
 use super::camera;
+use super::counts::DrawCounts;
 use super::debug_view::Look;
 use super::foam_pattern;
+use super::hidden_area::{HiddenArea, HiddenMesh};
 use super::moment::Moment;
-use super::ocean::{DrawCounts, Ocean};
+use super::ocean::Ocean;
 use super::sea_textures::SeaTextures;
 use super::shaders::BINDINGS;
 use super::sky::Sky;
 use super::sky_map::{self, SkyMap};
+use super::solids::{MOST_SOLIDS, Solids};
 use super::uniforms::{Frame, Spacing};
+use super::vignette::Vignette;
 use crate::gpu::{
     Bindings, Device, FRAMES_IN_FLIGHT, GpuError, Image, ImageInfo, Recorder, Resource, Sampler, Target,
     Turn, UploadRing, upload_image,
@@ -17,6 +21,7 @@ use crate::gpu::{
 use crate::lod::{Frustum, LodError, Quadtree, vertex_spacing};
 use crate::scene::Scene;
 use ash::vk;
+use glam::DVec3;
 use std::sync::Arc;
 
 /// A frame that cannot be drawn.
@@ -28,6 +33,26 @@ pub enum DrawError {
     /// The scene's level of detail.
     #[error(transparent)]
     Lod(#[from] LodError),
+    /// More than there is room for.
+    #[error("{count} solids in a frame, at most {MOST_SOLIDS} are drawn")]
+    TooManySolids {
+        /// How many.
+        count: usize,
+    },
+    /// A hidden area that ends in the middle of a triangle.
+    #[error("a hidden area of {count} indices, a multiple of 3 is needed")]
+    HiddenIndices {
+        /// How many.
+        count: usize,
+    },
+    /// A hidden area whose triangle has no such corner.
+    #[error("index {index} of a hidden area is not below {vertices}, the number of its vertices")]
+    HiddenIndex {
+        /// The index.
+        index: u32,
+        /// How many vertices there are.
+        vertices: usize,
+    },
 }
 
 /// Room for instances: some ten times what the largest tree draws.
@@ -35,8 +60,11 @@ const MOST_PATCHES: usize = 4096;
 
 /// Everything a scene needs to be drawn into targets of one kind.
 pub struct Renderer {
+    hidden_area: HiddenArea,
+    solids: Option<Solids>,
     ocean: Ocean,
     sky: Option<Sky>,
+    vignette: Option<Vignette>,
     look: Look,
     tree: Quadtree,
     frusta: Vec<Frustum>,
@@ -74,13 +102,18 @@ impl Renderer {
         let uniform_align = limits.min_uniform_buffer_offset_alignment.max(16);
         let share = SeaTextures::bytes(&scene.sea)
             + Ocean::instance_bytes(MOST_PATCHES)
+            + Solids::BYTES
             + size_of::<Frame>() as u64
             + uniform_align
             + 1024;
         let ring = UploadRing::new(device, FRAMES_IN_FLIGHT as u64, share)?;
         let bindings = Bindings::new(device, BINDINGS, FRAMES_IN_FLIGHT)?;
+        let hidden_area = HiddenArea::new(device, target, &bindings)?;
+        let solids = if look.has_solids() { Some(Solids::new(device, target, &bindings)?) } else { None };
         let ocean = Ocean::new(device, target, &bindings, &scene.lod, cascades, &look.layers(cascades))?;
         let sky = if look.has_sky() { Some(Sky::new(device, target, &bindings)?) } else { None };
+        let vignette =
+            if look.has_vignette() { Some(Vignette::new(device, target, &bindings)?) } else { None };
         let shared = shared_textures(device, sky_map)?;
         let textures = (0..FRAMES_IN_FLIGHT)
             .map(|_| SeaTextures::new(device, &scene.sea))
@@ -99,8 +132,11 @@ impl Renderer {
             });
         }
         Ok(Self {
+            hidden_area,
+            solids,
             ocean,
             sky,
+            vignette,
             look,
             tree,
             frusta: Vec::with_capacity(2),
@@ -126,23 +162,48 @@ impl Renderer {
         slot: usize,
         moment: Moment<'_>,
     ) -> Result<DrawCounts, DrawError> {
-        let Moment { eyes, maps, .. } = moment;
+        let eyes = moment.eyes;
         let head = camera::head(eyes);
         self.frusta.clear();
         self.frusta.extend(eyes.iter().map(|eye| eye.frustum(head)));
         let selection = self.tree.select(head, &self.frusta);
         self.ring.begin(slot as u64);
-        self.still.turn(eyes, selection.origin(), maps);
+        let origin = DVec3::new(selection.origin().x, 0.0, selection.origin().y);
+        self.still.turn(moment, origin);
         let uniforms = self.ring.push(bytemuck::bytes_of(&self.still), self.uniform_align)?;
-        self.textures[slot].upload(commands, &mut self.ring, maps)?;
+        self.textures[slot].upload(commands, &mut self.ring, moment.maps)?;
+        let solids = match &mut self.solids {
+            Some(solids) => Some((solids.upload(&mut self.ring, moment.solids, origin)?, &*solids)),
+            None => None,
+        };
         target.begin(commands, turn, self.look.clear());
         self.bindings.bind(commands, slot, u32::try_from(uniforms).unwrap_or(u32::MAX));
-        let counts = self.ocean.draw(commands, &self.bindings, &mut self.ring, selection)?;
+        let mut counts = self.hidden_area.draw(commands);
+        if let Some((uploaded, solids)) = solids {
+            counts += solids.draw(commands, &self.ring, &uploaded);
+        }
+        counts += self.ocean.draw(commands, &self.bindings, &mut self.ring, selection)?;
         if let Some(sky) = &self.sky {
-            sky.draw(commands);
+            counts += sky.draw(commands);
+        }
+        if let Some(vignette) = self.vignette.as_ref().filter(|_| moment.vignette > 0.0) {
+            counts += vignette.draw(commands);
         }
         target.end(commands);
         Ok(counts)
+    }
+
+    /// Hides each view's `meshes` from the next frame on; empty ones hide nothing. Call it between frames: it waits for
+    /// those that were submitted.
+    ///
+    /// # Errors
+    /// Indices that are no triangles of the vertices, or out of memory.
+    pub fn set_hidden_area(
+        &mut self,
+        device: &Arc<Device>,
+        meshes: [HiddenMesh<'_>; 2],
+    ) -> Result<(), DrawError> {
+        self.hidden_area.set(device, meshes)
     }
 
     /// Bytes uploaded by the latest frame.

@@ -1,8 +1,9 @@
 //! The sky behind everything.
 
+use super::counts::DrawCounts;
 use super::shaders;
 use crate::gpu::{
-    Bindings, DepthUse, Device, GpuError, Pipeline, PipelineInfo, Recorder, Target, VertexInput,
+    Bindings, Blend, DepthUse, Device, GpuError, Pipeline, PipelineInfo, Recorder, Target, VertexInput,
 };
 use std::sync::Arc;
 
@@ -21,16 +22,19 @@ impl Sky {
             fragment: (shaders::SKY_FRAGMENT_MAIN, c"fragment_main"),
             input: VertexInput::default(),
             depth: DepthUse::Background,
+            blend: Blend::Opaque,
+            cull: false,
             lines: false,
         };
         Ok(Self(Pipeline::new(device, target, bindings.pipeline_layout, &info)?))
     }
 
     /// Draws it, last, inside the pass.
-    pub fn draw(&self, commands: Recorder<'_>) {
+    pub fn draw(&self, commands: Recorder<'_>) -> DrawCounts {
         commands.begin_label(c"sky");
         self.0.bind(commands);
         commands.draw(3);
         commands.end_label();
+        DrawCounts::draw(1, 3, 1)
     }
 }

@@ -1,10 +1,12 @@
 //! The uniform block: the Rust twin of `shaders/frame.wgsl`.
 
-use super::camera::{self, Eye};
+use super::camera;
+use super::moment::Moment;
 use super::shaders::UNIFORM_SIZE;
 use super::sky_map::{self, SkyMap};
+use super::vignette;
 use crate::scene::Scene;
-use crate::sea::{SeaMaps, settings::MAX_CASCADES};
+use crate::sea::settings::MAX_CASCADES;
 use bytemuck::{Pod, Zeroable};
 use glam::{DVec2, DVec3, Mat4, Vec3, Vec4};
 
@@ -25,6 +27,7 @@ pub struct Cascade {
 pub struct Frame {
     view_projection: [Mat4; 2],
     clip_to_ray: [Mat4; 2],
+    view_scale: [Vec4; 2],
     eyes: [Vec4; 2],
     head: Vec4,
     cascades: [Cascade; MAX_CASCADES],
@@ -37,6 +40,7 @@ pub struct Frame {
     foam_range: Vec4,
     lod: Vec4,
     air: Vec4,
+    vignette: Vec4,
 }
 
 const _: () = assert!(size_of::<Frame>() == UNIFORM_SIZE, "Frame and shaders/frame.wgsl differ");
@@ -105,19 +109,21 @@ impl Frame {
         }
     }
 
-    /// Turns the frame to this moment: the eyes, and the maps' place relative to `origin` (world x, z).
+    /// Turns the frame to `moment`: the eyes, and the maps' place relative to `origin` (world metres).
     #[expect(clippy::cast_possible_truncation, reason = "reduced in f64 first")]
-    pub fn turn(&mut self, eyes: &[Eye], origin: DVec2, maps: &SeaMaps) {
-        let origin3 = DVec3::new(origin.x, 0.0, origin.y);
+    pub fn turn(&mut self, moment: Moment<'_>, origin: DVec3) {
+        let Moment { eyes, maps, vignette, .. } = moment;
         for (i, eye) in eyes.iter().take(2).enumerate() {
-            self.view_projection[i] = eye.view_projection(origin3);
+            self.view_projection[i] = eye.view_projection(origin);
             self.clip_to_ray[i] = eye.clip_to_ray();
-            self.eyes[i] = (eye.position - origin3).as_vec3().extend(1.0);
+            self.view_scale[i] = eye.fov.scale();
+            self.eyes[i] = (eye.position - origin).as_vec3().extend(1.0);
         }
-        self.head = (camera::head(eyes) - origin3).as_vec3().extend(1.0);
+        self.head = (camera::head(eyes) - origin).as_vec3().extend(1.0);
+        self.vignette = vignette::angles(eyes, vignette);
         for (slot, maps) in self.cascades.iter_mut().zip(&maps.cascades) {
             let (sin, cos) = maps.rotation.sin_cos();
-            let along = DVec2::new(origin.x * cos - origin.y * sin, origin.x * sin + origin.y * cos);
+            let along = DVec2::new(origin.x * cos - origin.z * sin, origin.x * sin + origin.z * cos);
             let unit = along / maps.patch_size;
             let offset = unit - unit.floor() + 0.5 / maps.resolution as f64;
             *slot = Cascade {

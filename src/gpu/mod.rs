@@ -31,7 +31,7 @@ pub use instance::{API_VERSION, Instance, Validation};
 pub use messages::Messages;
 pub use opener::{Directly, Opener};
 pub use physical::{PhysicalDevice, version};
-pub use pipeline::{DepthUse, Pipeline, PipelineInfo, VertexInput};
+pub use pipeline::{Blend, DepthUse, Pipeline, PipelineInfo, VertexInput};
 pub use recorder::Recorder;
 pub use ring::UploadRing;
 pub use target::{DEPTH_FORMAT, Lent, Target, TargetInfo, Turn};

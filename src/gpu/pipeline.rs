@@ -16,6 +16,17 @@ pub enum DepthUse {
     Raised,
     /// Drawn at infinity, where nothing else was; writes no depth.
     Background,
+    /// Neither tested nor written: over everything.
+    Ignored,
+}
+
+/// What becomes of the colour that is there already.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Blend {
+    /// It is replaced.
+    Opaque,
+    /// It shows through as far as alpha is below 1.
+    Over,
 }
 
 /// Vertex buffers and what is in them.
@@ -40,6 +51,10 @@ pub struct PipelineInfo<'a> {
     pub input: VertexInput<'a>,
     /// Depth.
     pub depth: DepthUse,
+    /// Blending.
+    pub blend: Blend,
+    /// Leave out triangles that are clockwise on the screen: the backs of closed meshes.
+    pub cull: bool,
     /// Draw the triangles' edges.
     pub lines: bool,
 }
@@ -84,7 +99,8 @@ impl Pipeline {
         let raised = info.depth == DepthUse::Raised;
         let raster = vk::PipelineRasterizationStateCreateInfo::default()
             .polygon_mode(polygon)
-            .cull_mode(vk::CullModeFlags::NONE)
+            .cull_mode(if info.cull { vk::CullModeFlags::BACK } else { vk::CullModeFlags::NONE })
+            .front_face(vk::FrontFace::COUNTER_CLOCKWISE)
             .line_width(1.0)
             .depth_bias_enable(raised)
             .depth_bias_constant_factor(8.0)
@@ -92,12 +108,16 @@ impl Pipeline {
         let samples =
             vk::PipelineMultisampleStateCreateInfo::default().rasterization_samples(target.info.samples);
         let depth = vk::PipelineDepthStencilStateCreateInfo::default()
-            .depth_test_enable(true)
-            .depth_write_enable(info.depth != DepthUse::Background)
+            .depth_test_enable(info.depth != DepthUse::Ignored)
+            .depth_write_enable(matches!(info.depth, DepthUse::Solid | DepthUse::Raised))
             .depth_compare_op(vk::CompareOp::GREATER_OR_EQUAL);
-        let blends =
-            [vk::PipelineColorBlendAttachmentState::default()
-                .color_write_mask(vk::ColorComponentFlags::RGBA)];
+        let blends = [vk::PipelineColorBlendAttachmentState::default()
+            .blend_enable(info.blend == Blend::Over)
+            .src_color_blend_factor(vk::BlendFactor::SRC_ALPHA)
+            .dst_color_blend_factor(vk::BlendFactor::ONE_MINUS_SRC_ALPHA)
+            .src_alpha_blend_factor(vk::BlendFactor::ZERO)
+            .dst_alpha_blend_factor(vk::BlendFactor::ONE)
+            .color_write_mask(vk::ColorComponentFlags::RGBA)];
         let blend = vk::PipelineColorBlendStateCreateInfo::default().attachments(&blends);
         let dynamic = [vk::DynamicState::VIEWPORT, vk::DynamicState::SCISSOR];
         let dynamic = vk::PipelineDynamicStateCreateInfo::default().dynamic_states(&dynamic);

@@ -1,7 +1,7 @@
 //! Frames without a screen: the frame loop around an offscreen target.
 
 use super::painter::{self, Painter};
-use crate::draw::{self, DrawCounts, Eye, Look, Moment};
+use crate::draw::{self, DrawCounts, Eye, HiddenMesh, Look, Moment, Solid};
 use crate::gpu::{
     Buffer, Device, DeviceNeeds, Directly, FRAMES_IN_FLIGHT, GpuError, Instance, MemoryLocation,
     PhysicalDevice, Target, TargetInfo, Turn, Validation,
@@ -48,6 +48,8 @@ pub struct Headless {
     /// Dropped before what its frames use, since dropping it waits for them.
     painter: Painter,
     eyes: Vec<Eye>,
+    solids: Vec<Solid>,
+    vignette: f32,
     offscreen: Offscreen,
 }
 
@@ -74,7 +76,14 @@ impl Headless {
         #[expect(clippy::cast_precision_loss, reason = "picture sizes")]
         let aspect = settings.size[0] as f32 / settings.size[1] as f32;
         let eyes = draw::eyes(&scene.camera, aspect, settings.stereo);
-        Ok(Self { sea: started.sea, painter: started.painter, eyes, offscreen: started.opened })
+        Ok(Self {
+            sea: started.sea,
+            painter: started.painter,
+            eyes,
+            solids: Vec::new(),
+            vignette: 0.0,
+            offscreen: started.opened,
+        })
     }
 
     /// Looks from `eyes`, one for each view, from the next frame on; a view without a new eye keeps its own.
@@ -82,6 +91,21 @@ impl Headless {
         for (own, eye) in self.eyes.iter_mut().zip(eyes) {
             *own = *eye;
         }
+    }
+
+    /// Shows `solids`, through a vignette closed by `vignette` (0..=1), from the next frame on.
+    pub fn set_scenery(&mut self, solids: &[Solid], vignette: f32) {
+        self.solids.clear();
+        self.solids.extend_from_slice(solids);
+        self.vignette = vignette;
+    }
+
+    /// Hides `meshes`, one for each view, from the next frame on.
+    ///
+    /// # Errors
+    /// As [`draw::Renderer::set_hidden_area`].
+    pub fn set_hidden_area(&mut self, meshes: [HiddenMesh<'_>; 2]) -> Result<(), HostError> {
+        self.painter.set_hidden_area(meshes)
     }
 
     /// Draws the sea at each of `times` and hands every finished frame to `take`. The first time of the first run is
@@ -104,7 +128,7 @@ impl Headless {
             let following = times.next();
             let maps = self.sea.next(following)?;
             let Offscreen { readback, target } = &self.offscreen;
-            let moment = Moment { eyes: &self.eyes, maps, solids: &[], vignette: 0.0 };
+            let moment = Moment { eyes: &self.eyes, maps, solids: &self.solids, vignette: self.vignette };
             drawn[slot] = self.painter.paint(index, (target, Turn::default()), moment, |commands| {
                 target.copy_to(commands, &readback[slot]);
             })?;

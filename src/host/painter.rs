@@ -1,7 +1,7 @@
 //! What every host draws frames with: a renderer, and a command buffer for each frame in flight.
 
 use super::HostError;
-use crate::draw::{DrawCounts, Look, Moment, Renderer, SkyMap};
+use crate::draw::{DrawCounts, HiddenMesh, Look, Moment, Renderer, SkyMap};
 use crate::gpu::{Commands, Device, FRAMES_IN_FLIGHT, GpuError, Recorder, Target, Turn};
 use crate::jobs::Workers;
 use crate::scene::Scene;
@@ -70,6 +70,15 @@ impl Painter {
     /// The device was lost.
     pub fn wait_all(&self) -> Result<(), HostError> {
         (0..FRAMES_IN_FLIGHT).try_for_each(|index| self.wait(index))
+    }
+
+    /// Hides `meshes`, one for each view, from the next frame on.
+    ///
+    /// # Errors
+    /// As [`Renderer::set_hidden_area`].
+    pub fn set_hidden_area(&mut self, meshes: [HiddenMesh<'_>; 2]) -> Result<(), HostError> {
+        self.wait_all()?;
+        Ok(self.renderer.set_hidden_area(&self.device, meshes)?)
     }
 
     /// The device drawn on.

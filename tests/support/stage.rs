@@ -1,7 +1,7 @@
 //! Frames drawn by the library, with validation listening.
 use super::picture::Picture;
 use glam::{DVec3, Mat3};
-use swell::draw::{Eye, Fov, Look};
+use swell::draw::{DrawCounts, Eye, Fov, Look};
 use swell::gpu::Validation;
 use swell::host::{Headless, HeadlessSettings};
 use swell::scene::Scene;
@@ -16,6 +16,8 @@ pub fn shipped(name: &str) -> Scene {
 /// A renderer and the size of its views. A message of the validation layers, synchronization included, is a failure.
 pub struct Stage {
     pub host: Headless,
+    /// What the latest frame took to draw.
+    pub counts: DrawCounts,
     pub size: [u32; 2],
     views: u32,
 }
@@ -33,19 +35,21 @@ impl Stage {
             cache: None,
         };
         let host = Headless::new(scene, &settings, time).unwrap_or_else(|error| panic!("{error}"));
-        Self { host, size, views }
+        Self { host, counts: DrawCounts::default(), size, views }
     }
 
     /// The frame's bytes, view after view, seen from `eyes`; from the eyes before where there are none.
     pub fn frame(&mut self, time: f64, eyes: &[Eye]) -> Vec<u8> {
         self.host.set_eyes(eyes);
-        let mut bytes = Vec::new();
+        let (mut bytes, mut counts) = (Vec::new(), self.counts);
         self.host
             .run([time], |frame| {
                 bytes.extend_from_slice(frame.pixels);
+                counts = frame.counts;
                 Ok(())
             })
             .unwrap_or_else(|error| panic!("{error}"));
+        self.counts = counts;
         let said = self.host.device().instance().messages();
         assert!(said.is_empty(), "the validation layers said: {said:#?}");
         bytes
@@ -75,4 +79,13 @@ pub fn ray(eye: &Eye, size: [u32; 2], [x, y]: [f64; 2]) -> DVec3 {
     let tangents = [across(left, right, x / f64::from(size[0])), across(up, down, y / f64::from(size[1]))];
     let [right, up, back] = [0, 1, 2].map(|axis| eye.axes.col(axis).as_dvec3());
     right * tangents[0] + up * tangents[1] - back
+}
+
+/// Where `point` is seen, in pixels from the picture's upper left corner, and how far along the view's axis, metres.
+pub fn seen_at(eye: &Eye, size: [u32; 2], point: DVec3) -> ([f64; 2], f64) {
+    let Fov { left, right, up, down } = eye.fov;
+    let [x, y, back] = [0, 1, 2].map(|axis| eye.axes.col(axis).as_dvec3().dot(point - eye.position));
+    let share = |from: f32, to: f32, tangent: f64| (tangent - f64::from(from)) / f64::from(to - from);
+    let place = [share(left, right, x / -back), share(up, down, y / -back)];
+    ([place[0] * f64::from(size[0]), place[1] * f64::from(size[1])], -back)
 }

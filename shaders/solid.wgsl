@@ -1,0 +1,53 @@
+// Opaque things that float on the sea: unit meshes, turned and stretched, of one matt colour each.
+#include "light.wgsl"
+
+struct Solid {
+    @location(0) vertex: vec3f,
+    @location(1) normal: vec3f,
+    // Its axes in the world times its size; in w red, green and blue.
+    @location(2) x: vec4f,
+    @location(3) y: vec4f,
+    @location(4) z: vec4f,
+    // Its centre; w: share of the distance by which depth brings it forward.
+    @location(5) place: vec4f,
+}
+
+struct SolidVaryings {
+    @builtin(position) clip: vec4f,
+    @location(0) position: vec3f,
+    @location(1) normal: vec3f,
+    @location(2) @interpolate(flat) color: vec3f,
+    @location(3) @interpolate(flat) view: u32,
+}
+
+// Light that the sea sends up besides its own colour: the sky mirrored in a rough sea, as a share of the daylight.
+const MIRRORED: f32 = 0.06;
+
+@vertex
+fn vertex_main(in: Solid, @builtin(view_index) view: u32) -> SolidVaryings {
+    var out: SolidVaryings;
+    out.position = in.place.xyz + in.x.xyz * in.vertex.x + in.y.xyz * in.vertex.y + in.z.xyz * in.vertex.z;
+    // Normals shrink where the thing is stretched.
+    out.normal = in.x.xyz * (in.normal.x / dot(in.x.xyz, in.x.xyz))
+        + in.y.xyz * (in.normal.y / dot(in.y.xyz, in.y.xyz))
+        + in.z.xyz * (in.normal.z / dot(in.z.xyz, in.z.xyz));
+    out.clip = frame.view_projection[view] * vec4f(out.position, 1.0);
+    // Depth is near / distance, so this divides the distance that depth stands for by 1 + w, everywhere alike.
+    out.clip.z *= 1.0 + in.place.w;
+    out.color = vec3f(in.x.w, in.y.w, in.z.w);
+    out.view = view;
+    return out;
+}
+
+@fragment
+fn fragment_main(in: SolidVaryings) -> @location(0) vec4f {
+    let to_eye = frame.eyes[in.view].xyz - in.position;
+    let distance = length(to_eye);
+    let n = normalize(in.normal);
+    let sun = frame.sun.xyz;
+    // From above the sky lights it, from below the sea, which is lit by both.
+    let sea = (frame.sky_light.rgb + frame.sun_light.rgb * max(sun.y, 0.0)) * (frame.deep.rgb + MIRRORED);
+    let daylight = frame.sun_light.rgb * saturate(dot(n, sun)) + mix(sea, frame.sky_light.rgb, 0.5 + 0.5 * n.y);
+    let color = in.color * daylight / 3.14159265;
+    return vec4f(tone_map(haze(color, to_eye / distance, distance)), 1.0);
+}
