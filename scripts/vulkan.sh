@@ -47,6 +47,11 @@ package_version() {
   version=${version#*:}
   echo "${version%%-*}"
 }
+# missing_packages NAME...: those that are not installed.
+missing_packages() {
+  local package
+  for package in "$@"; do package_version "$package" >/dev/null || echo "$package"; done
+}
 machine_mesa() { package_version mesa-vulkan-drivers; }
 machine_mesa_will_do() {
   local version
@@ -98,8 +103,8 @@ vulkan_set_up() {
     machine)
       # Where dpkg does not rule, the person who chose the machine's own Vulkan answers for it.
       command -v dpkg-query >/dev/null || return 0
-      local package missing=()
-      for package in "$@"; do package_version "$package" >/dev/null || missing+=("$package"); done
+      local missing
+      mapfile -t missing < <(missing_packages "$@")
       ((${#missing[@]})) || return 0
       if is_root && DEBIAN_FRONTEND=noninteractive apt_install "${missing[@]}"; then return 0; fi
       say "${missing[*]} cannot be installed here; unpacking Debian 13's instead"

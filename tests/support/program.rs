@@ -1,21 +1,29 @@
 //! The `swell` program, and what it says.
+use std::ffi::OsStr;
 use std::path::Path;
 use std::process::{Command, Output, Stdio};
 
 /// The built program's path.
 pub const SWELL: &str = env!("CARGO_BIN_EXE_swell");
 
-/// `swell` with a Vulkan to draw on. A child is not wrapped by cargo's runner, so this wraps it; see docs/setup.md.
-pub fn swell() -> Command {
+/// `program` with a Vulkan to draw on. A child is not wrapped by cargo's runner, so this wraps it; see docs/setup.md.
+pub fn on_vulkan(program: impl AsRef<OsStr>) -> Command {
     let mut command = match std::env::var_os("SWELL_RUNNER") {
         Some(runner) => {
             let mut command = Command::new(runner);
-            command.arg(SWELL);
+            command.arg(program);
             command
         }
-        None => Command::new(SWELL),
+        None => Command::new(program),
     };
-    command.env("XDG_CACHE_HOME", env!("CARGO_TARGET_TMPDIR")).stdin(Stdio::null());
+    command.stdin(Stdio::null());
+    command
+}
+
+/// `swell` with a Vulkan to draw on.
+pub fn swell() -> Command {
+    let mut command = on_vulkan(SWELL);
+    command.env("XDG_CACHE_HOME", env!("CARGO_TARGET_TMPDIR"));
     command
 }
 
