@@ -140,7 +140,7 @@ fn no_water_lies_on_the_deck_of_who_is_aboard() {
 fn only_water_has_solids_and_there_are_not_too_many() {
     let scene = still();
     let pose = Pose { position: DVec3::new(0.0, 0.0, -5.0), axes: Mat3::IDENTITY };
-    let buoy = Buoy { pose, diameter: 1.0, color: [0.7, 0.05, 0.02] };
+    let buoy = Buoy { pose, diameter: 1.0, mast: 2.0, color: [0.7, 0.05, 0.02] };
     assert_eq!(buoy.solids().last().unwrap().position, buoy.top());
     let mut height = Stage::new(&scene, SIZE, 1, Look::Height, TIME);
     let plain = height.frame(TIME, &[]);

@@ -14,33 +14,37 @@ const MAST: [f32; 3] = [0.10, 0.10, 0.11];
 pub struct Buoy {
     /// Its origin is the body's centre, which floats at the water's surface; y along the mast.
     pub pose: Pose,
-    /// Of the body, metres; everything else is in proportion.
+    /// Of the body, metres.
     pub diameter: f32,
+    /// Height of the mast's top, and of the ball around it, above the water, metres; 0 has neither.
+    pub mast: f32,
     /// Of body and top, linear.
     pub color: [f32; 3],
 }
 
 impl Buoy {
-    /// Height of the top's centre above the body's, in diameters of the body.
-    pub const TOP: f32 = 2.0;
-    /// Diameter of the top, in diameters of the body.
+    /// Diameter of the ball on top, in diameters of the body.
     pub const TOP_SIZE: f32 = 0.28;
 
-    /// Its solids; the last is the ball on top.
+    /// Its solids; the last is the ball on top, within the body where there is no mast.
     pub fn solids(&self) -> [Solid; BUOY_SOLIDS] {
+        let d = self.diameter;
         let part = |shape, up: f32, size: [f32; 3], color| {
-            self.pose.solid(shape, Vec3::Y * (up * self.diameter), Vec3::from(size) * self.diameter, color)
+            self.pose.solid(shape, Vec3::Y * up, Vec3::from(size), color)
         };
+        let foot = 0.4 * d;
+        let mast = (self.mast - foot).max(0.01 * d);
+        let top = Self::TOP_SIZE * d;
         [
-            part(Shape::Sphere, 0.0, [1.0; 3], self.color),
-            part(Shape::Cylinder, 0.30, [0.86, 0.12, 0.86], WHITE),
-            part(Shape::Cylinder, 0.5 * Self::TOP + 0.2, [0.06, Self::TOP - 0.4, 0.06], MAST),
-            part(Shape::Sphere, Self::TOP, [Self::TOP_SIZE; 3], self.color),
+            part(Shape::Sphere, 0.0, [d; 3], self.color),
+            part(Shape::Cylinder, 0.30 * d, [0.86 * d, 0.12 * d, 0.86 * d], WHITE),
+            part(Shape::Cylinder, foot + 0.5 * mast, [0.06 * d, mast, 0.06 * d], MAST),
+            part(Shape::Sphere, self.mast, [top; 3], self.color),
         ]
     }
 
     /// World position of the ball on top.
     pub fn top(&self) -> DVec3 {
-        self.pose.at(Vec3::Y * (Self::TOP * self.diameter))
+        self.pose.at(Vec3::Y * self.mast)
     }
 }

@@ -26,7 +26,7 @@ mod vertex_input;
 mod vignette;
 
 pub use buoy::{BUOY_SOLIDS, Buoy};
-pub use camera::{Eye, Fov, eyes};
+pub use camera::{Eye, Fov, NEAR, eyes};
 pub use counts::DrawCounts;
 pub use debug_view::Look;
 pub use hands::{HAND_SOLIDS, Hand, hand, ray};

@@ -75,6 +75,51 @@ impl Recorder<'_> {
         }
     }
 
+    /// Copies a lent colour image, just drawn and in `COLOR_ATTACHMENT_OPTIMAL`, to `image`, which has its size, layers and
+    /// format. Leaves the one as it was and the other in `TRANSFER_SRC_OPTIMAL`.
+    pub fn copy_lent(self, lent: vk::Image, image: &Image) {
+        use vk::{AccessFlags as A, ImageLayout as L, PipelineStageFlags as S};
+        let barrier = |raw, from, to, after, before| {
+            vk::ImageMemoryBarrier::default()
+                .old_layout(from)
+                .new_layout(to)
+                .src_access_mask(after)
+                .dst_access_mask(before)
+                .src_queue_family_index(vk::QUEUE_FAMILY_IGNORED)
+                .dst_queue_family_index(vk::QUEUE_FAMILY_IGNORED)
+                .image(raw)
+                .subresource_range(image.everything())
+        };
+        let (drawn, source, copied) =
+            (L::COLOR_ATTACHMENT_OPTIMAL, L::TRANSFER_SRC_OPTIMAL, L::TRANSFER_DST_OPTIMAL);
+        let before = [
+            barrier(lent, drawn, source, A::COLOR_ATTACHMENT_WRITE, A::TRANSFER_READ),
+            // Whoever looked at the picture before has finished reading.
+            barrier(image.raw, L::UNDEFINED, copied, A::empty(), A::TRANSFER_WRITE),
+        ];
+        let after = [
+            barrier(lent, source, drawn, A::TRANSFER_READ, A::empty()),
+            barrier(image.raw, copied, source, A::TRANSFER_WRITE, A::TRANSFER_READ),
+        ];
+        let layers =
+            vk::ImageSubresourceLayers::default().aspect_mask(image.aspect()).layer_count(image.info.layers);
+        let [width, height] = image.info.extent;
+        let region = [vk::ImageCopy::default()
+            .src_subresource(layers)
+            .dst_subresource(layers)
+            .extent(vk::Extent3D { width, height, depth: 1 })];
+        let flags = vk::DependencyFlags::empty();
+        let raw = &self.device.raw;
+        // SAFETY: recording outside a pass; the lender keeps the image meanwhile, and both have these layers and this size.
+        unsafe {
+            let drawn = S::COLOR_ATTACHMENT_OUTPUT | S::TRANSFER;
+            raw.cmd_pipeline_barrier(self.raw, drawn, S::TRANSFER, flags, &[], &[], &before);
+            raw.cmd_copy_image(self.raw, lent, source, image.raw, copied, &region);
+            let later = S::COLOR_ATTACHMENT_OUTPUT | S::TRANSFER;
+            raw.cmd_pipeline_barrier(self.raw, S::TRANSFER, later, flags, &[], &[], &after);
+        }
+    }
+
     /// Fills `image`, which is in `TRANSFER_DST_OPTIMAL`, from `buffer`.
     pub fn copy_to_image(self, buffer: vk::Buffer, image: &Image, regions: &[vk::BufferImageCopy]) {
         let layout = vk::ImageLayout::TRANSFER_DST_OPTIMAL;

@@ -1,17 +1,23 @@
 //! Whoever decides when a frame is drawn, from where and into what.
 
+mod afloat;
 mod cpu;
 mod headless;
+mod headset;
 mod painter;
 
+pub use afloat::marker;
 pub use cpu::cpu_time;
 pub use headless::{Finished, Headless, HeadlessSettings};
+pub use headset::{Drawn, Guest, HeadsetFrame, HeadsetReport, HeadsetSettings, headset};
 
 use crate::draw::{DrawError, SkyError};
 use crate::gpu::GpuError;
 use crate::jobs::JobsError;
 use crate::output::OutputError;
+use crate::raft::RaftError;
 use crate::sea::SeaError;
+use crate::xr::XrError;
 
 /// A frame loop that could not begin or go on.
 #[derive(Debug, thiserror::Error)]
@@ -28,6 +34,12 @@ pub enum HostError {
     /// The simulation.
     #[error(transparent)]
     Sea(#[from] SeaError),
+    /// The headset.
+    #[error(transparent)]
+    Xr(#[from] XrError),
+    /// The raft.
+    #[error(transparent)]
+    Raft(#[from] RaftError),
     /// Worker threads.
     #[error(transparent)]
     Jobs(#[from] JobsError),

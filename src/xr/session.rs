@@ -37,6 +37,15 @@ pub struct View {
     pub angles: [f32; 4],
 }
 
+/// Triangles of a view that nobody sees.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Mask {
+    /// Tangents (x, y) at z = -1.
+    pub vertices: Vec<[f32; 2]>,
+    /// Three for each triangle.
+    pub indices: Vec<u32>,
+}
+
 /// When a frame will be seen.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FrameTime {
@@ -223,22 +232,20 @@ impl Session {
         &self.base
     }
 
-    /// Triangles that a lens hides in view `view`, as tangents (x, y) at z = -1, three to a triangle; empty where the
-    /// runtime does not tell.
+    /// What a lens hides in view `view`; empty where the runtime does not tell.
     ///
     /// # Errors
     /// The runtime has gone.
-    pub fn hidden_area(&self, view: usize) -> Result<Vec<[f32; 2]>, XrError> {
+    pub fn hidden_area(&self, view: usize) -> Result<Mask, XrError> {
         if !self.runtime.extensions.khr_visibility_mask {
-            return Ok(Vec::new());
+            return Ok(Mask::default());
         }
         let kind = xr::VisibilityMaskTypeKHR::HIDDEN_TRIANGLE_MESH;
         let mask = self
             .raw
             .get_visibility_mask_khr(CONFIGURATION, view as u32, kind)
             .doing("asking what the lenses hide")?;
-        let corner = |&index: &u32| mask.vertices.get(index as usize).map(|v| [v.x, v.y]);
-        Ok(mask.indices.iter().filter_map(corner).collect())
+        Ok(Mask { vertices: mask.vertices.iter().map(|v| [v.x, v.y]).collect(), indices: mask.indices })
     }
 }
 

@@ -8,6 +8,7 @@ use openxr as xr;
 use openxr::sys::{self, Handle as _};
 use std::ffi::c_void;
 use std::sync::Arc;
+use std::time::Duration;
 
 /// What a swapchain is to be.
 #[derive(Clone, Copy, Debug)]
@@ -183,7 +184,7 @@ impl Swapchain {
     ///
     /// # Errors
     /// The session or the runtime has gone, or the runtime failed.
-    pub fn acquire(&mut self, timeout: xr::Duration) -> Result<Option<usize>, XrError> {
+    pub fn acquire(&mut self, timeout: Duration) -> Result<Option<usize>, XrError> {
         let index = match self.acquired {
             Some(index) => index,
             None => {
@@ -197,7 +198,7 @@ impl Swapchain {
             let info = sys::SwapchainImageWaitInfo {
                 ty: sys::SwapchainImageWaitInfo::TYPE,
                 next: std::ptr::null(),
-                timeout,
+                timeout: xr::Duration::from_nanos(i64::try_from(timeout.as_nanos()).unwrap_or(i64::MAX)),
             };
             // SAFETY: the swapchain lives and has an acquired image.
             let waited = unsafe { (self.raw.instance().fp().wait_swapchain_image)(self.raw.as_raw(), &info) };

@@ -1,0 +1,328 @@
+//! Frames in a headset: the runtime says when a frame will be seen and from where.
+//!
+//! One thread does it all, and the sea's workers step ahead meanwhile. Whoever else wants a look (a window that mirrors, a
+//! log, a person at the keyboard) is a [`Guest`] of this loop and never makes it wait.
+
+mod eyes;
+mod pace;
+mod ride;
+mod stage;
+mod visit;
+
+pub use visit::{Drawn, Guest, HeadsetFrame};
+
+use super::HostError;
+use super::painter::{self, Painter};
+use crate::draw::{Look, SkyMap};
+use crate::gpu::{Device, DeviceNeeds, Instance, Validation};
+use crate::scene::Scene;
+use crate::sea::SeaAhead;
+use crate::xr::vendor::FoveationLevel;
+use crate::xr::{Demand, EventDataBuffer, Notice, Runtime, XrError};
+use pace::Pace;
+use ride::Ride;
+use stage::Stage;
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::thread;
+use std::time::{Duration, Instant};
+
+/// What to show, and how.
+#[derive(Clone, Debug)]
+pub struct HeadsetSettings {
+    /// What is drawn on the surface.
+    pub look: Look,
+    /// Whether validation listens, Vulkan's and OpenXR's.
+    pub validation: Validation,
+    /// Worker threads for the sea; 0 for one a core.
+    pub threads: usize,
+    /// Where compiled pipelines are kept.
+    pub cache: Option<PathBuf>,
+    /// Wait for a runtime and a headset that are not there yet, or not any more.
+    pub wait: bool,
+    /// Frames end after this many were shown.
+    pub frames: Option<u64>,
+    /// Factor on the recommended size of a view, limited to what the runtime allows.
+    pub scale: f32,
+    /// Refresh rate wished for, hertz; the highest without a wish.
+    pub refresh_rate: Option<f32>,
+    /// How coarse the rim of a view may be, where the runtime can.
+    pub foveation: FoveationLevel,
+}
+
+/// What a run came to.
+#[derive(Clone, Debug, Default)]
+pub struct HeadsetReport {
+    /// Frames that were drawn and shown.
+    pub shown: u64,
+    /// Frames that the runtime wanted empty, or whose images it did not give in time.
+    pub skipped: u64,
+    /// Sessions begun anew after one was lost.
+    pub recovered: u32,
+    /// Everything validation said, the end included.
+    pub said: Vec<String>,
+}
+
+/// How long between two looks for a runtime that is not there.
+const RETRY: Duration = Duration::from_millis(500);
+/// How long between two looks at a session that does not run.
+const REST: Duration = Duration::from_millis(10);
+/// A session that was asked to end and does not is left.
+const PATIENCE: Duration = Duration::from_secs(3);
+/// Sessions lost one after the other without a frame in between.
+const MOST_LOSSES: u32 = 5;
+
+/// Shows `scene` in a headset until the person, the runtime or `guest` ends it.
+///
+/// # Errors
+/// No runtime or headset (unless they are waited for), no usable device, a runtime that has gone for good, out of memory.
+pub fn headset(
+    scene: &Scene,
+    settings: &HeadsetSettings,
+    guest: &mut dyn Guest,
+) -> Result<HeadsetReport, HostError> {
+    let report = HeadsetReport::default();
+    let Some(runtime) = find_runtime(settings, guest)? else { return Ok(report) };
+    let open = || open(settings, &runtime, guest);
+    let started = painter::start(scene, settings.look, settings.threads, None, open)?;
+    let (sky, sea) = (started.sky, started.sea);
+    let world = World { painter: started.painter, runtime };
+    let mut show = Show { scene, settings, sky, sea, pace: Pace::default(), ride: Ride::new(scene)?, report };
+    let ended = show.go_on(world, started.opened, guest);
+    guest.closing();
+    ended.map(|()| show.report)
+}
+
+/// What lives as long as one runtime.
+struct World {
+    /// Dropped before the device it holds.
+    painter: Painter,
+    runtime: Arc<Runtime>,
+}
+
+/// What survives the runtime.
+struct Show<'a> {
+    scene: &'a Scene,
+    settings: &'a HeadsetSettings,
+    sky: SkyMap,
+    sea: SeaAhead,
+    pace: Pace,
+    ride: Ride,
+    report: HeadsetReport,
+}
+
+/// Why a session is over.
+enum Over {
+    /// Wanted.
+    Ended,
+    /// It was lost; the runtime is there.
+    Lost,
+}
+
+impl Show<'_> {
+    fn go_on(&mut self, world: World, stage: Stage, guest: &mut dyn Guest) -> Result<(), HostError> {
+        let (mut world, mut stage) = (world, Some(stage));
+        let mut losses = 0;
+        loop {
+            let shown = self.report.shown;
+            let over = self.session(&mut world, &mut stage, guest);
+            losses = if self.report.shown > shown { 0 } else { losses };
+            match over {
+                Ok(Over::Ended) => return self.end(world, stage, guest),
+                Ok(Over::Lost) | Err(HostError::Xr(XrError::SessionLost { .. })) => {
+                    losses += 1;
+                    if losses > MOST_LOSSES {
+                        return Err(XrError::LostAgain { times: losses }.into());
+                    }
+                    eprintln!("the session was lost; beginning another");
+                    self.report.recovered += 1;
+                    world.painter.wait_all()?;
+                    stage = None;
+                    thread::sleep(RETRY.min(REST * losses));
+                }
+                Err(HostError::Xr(error)) if self.settings.wait && error.may_pass() => {
+                    eprintln!("{error}");
+                    world.painter.wait_all()?;
+                    guest.closing();
+                    // In this order: what is drawn into, what draws, the device with it, the runtime.
+                    drop((stage.take(), world));
+                    let Some(runtime) = find_runtime(self.settings, guest)? else { return Ok(()) };
+                    let (device, opened) = open(self.settings, &runtime, guest)?;
+                    let painter =
+                        Painter::new(&device, opened.as_ref(), self.scene, &self.sky, self.settings.look)?;
+                    (world, stage) = (World { painter, runtime }, Some(opened));
+                    self.report.recovered += 1;
+                }
+                Err(error) => return Err(error),
+            }
+        }
+    }
+
+    /// Everything goes in order, and what validation said of it is kept.
+    fn end(&mut self, world: World, stage: Option<Stage>, guest: &mut dyn Guest) -> Result<(), HostError> {
+        let vulkan = world.painter.device().instance().heard();
+        let openxr = world.runtime.heard();
+        world.painter.wait_all()?;
+        guest.closing();
+        drop((stage, world));
+        self.report.said = [vulkan.all(), openxr.all()].concat();
+        Ok(())
+    }
+
+    /// One session, from its first event to its last.
+    fn session(
+        &mut self,
+        world: &mut World,
+        kept: &mut Option<Stage>,
+        guest: &mut dyn Guest,
+    ) -> Result<Over, HostError> {
+        let stage = match kept {
+            Some(stage) => stage,
+            None => {
+                kept.insert(Stage::new(&world.runtime, world.painter.device(), self.settings, guest.looks())?)
+            }
+        };
+        stage.show_hidden_area(&mut world.painter)?;
+        self.pace.forget_clock();
+        let mut buffer = EventDataBuffer::new();
+        let mut asked_to_end: Option<Instant> = None;
+        loop {
+            while let Some(notice) = world.runtime.poll(&mut buffer)? {
+                match notice {
+                    Notice::State(state) => {
+                        let demand = stage.session.enter(state)?;
+                        guest.state(stage.session.lifecycle().name());
+                        match demand {
+                            Demand::Leave => return Ok(Over::Ended),
+                            Demand::Lost => return Ok(Over::Lost),
+                            Demand::Nothing | Demand::Begin | Demand::End => {}
+                        }
+                    }
+                    Notice::InstanceLossPending => {
+                        return Err(XrError::InstanceLost { doing: "listening for events" }.into());
+                    }
+                    Notice::MaskChanged => stage.show_hidden_area(&mut world.painter)?,
+                    Notice::ProfileChanged => stage.tell_hands()?,
+                    Notice::EventsLost(count) => eprintln!("the OpenXR runtime dropped {count} events"),
+                    // The floor's origin is where the head is now, so it is the raft's middle again: nothing to do.
+                    Notice::Recentred(_) | Notice::RefreshRate(_) | Notice::Performance => {}
+                }
+            }
+            let enough = self.settings.frames.is_some_and(|frames| self.report.shown >= frames);
+            let running = stage.session.lifecycle().is_running();
+            if enough || !guest.goes_on() {
+                match asked_to_end {
+                    None if running => {
+                        stage.session.request_exit()?;
+                        asked_to_end = Some(Instant::now());
+                    }
+                    None => return Ok(Over::Ended),
+                    Some(since) if since.elapsed() > PATIENCE => return Ok(Over::Ended),
+                    Some(_) => {}
+                }
+            }
+            if running {
+                let ending = asked_to_end.is_some();
+                self.frame(world, stage, guest, ending)?;
+            } else {
+                thread::sleep(REST);
+            }
+        }
+    }
+
+    /// Waits for a frame and shows it; an empty one while the session is `ending`, or nobody would see it.
+    fn frame(
+        &mut self,
+        world: &mut World,
+        stage: &mut Stage,
+        guest: &mut dyn Guest,
+        ending: bool,
+    ) -> Result<(), HostError> {
+        let time = stage.session.wait()?;
+        stage.session.begin()?;
+        let views = if time.should_render && !ending { stage.session.locate(time)? } else { None };
+        let turn = match views {
+            Some(_) => stage.acquire()?,
+            None => None,
+        };
+        let (Some(views), Some(turn)) = (views, turn) else {
+            stage.session.end(time, None)?;
+            if !ending {
+                self.report.skipped += 1;
+            }
+            let state = stage.session.lifecycle().name();
+            return guest.frame(&HeadsetFrame { time: self.pace.time_of(time), state, drawn: None });
+        };
+        let hands = stage.input.hands(&stage.session, time)?;
+        let (seconds, maps) = self.pace.maps(&mut self.sea, time)?;
+        let ridden = self.ride.step(self.scene, maps, seconds, &views, &hands);
+        let (buzz, moment) = (ridden.buzz, ridden.moment(maps));
+        let index = self.report.shown as usize;
+        let counts = world.painter.paint(index, (&stage.target, turn), moment, |commands| {
+            stage.copy(commands, turn);
+        })?;
+        let eyes = ridden.eyes;
+        stage.release()?;
+        stage.end(time)?;
+        for hand in (0..buzz.len()).filter(|&hand| buzz[hand]) {
+            stage.input.buzz(&stage.session, hand, 0.5)?;
+        }
+        self.report.shown += 1;
+        let drawn = Drawn {
+            eyes: &eyes,
+            hands: &hands,
+            counts,
+            uploaded: world.painter.uploaded(),
+            picture: stage.picture(),
+        };
+        let state = stage.session.lifecycle().name();
+        guest.frame(&HeadsetFrame { time: seconds, state, drawn: Some(drawn) })
+    }
+}
+
+/// A runtime with a headset; nothing where the guest would not wait longer.
+fn find_runtime(
+    settings: &HeadsetSettings,
+    guest: &mut dyn Guest,
+) -> Result<Option<Arc<Runtime>>, HostError> {
+    let mut told = false;
+    loop {
+        match Runtime::new(settings.validation) {
+            Err(error) if settings.wait && error.may_pass() => {
+                if !told {
+                    eprintln!("{error}; waiting");
+                    told = true;
+                }
+                let begun = Instant::now();
+                while begun.elapsed() < RETRY {
+                    if !guest.goes_on() {
+                        return Ok(None);
+                    }
+                    thread::sleep(REST);
+                }
+            }
+            other => return Ok(Some(other?)),
+        }
+    }
+}
+
+/// Vulkan as the runtime wants it, and a first session.
+fn open(
+    settings: &HeadsetSettings,
+    runtime: &Arc<Runtime>,
+    guest: &mut dyn Guest,
+) -> Result<(Arc<Device>, Stage), HostError> {
+    let instance = Instance::new(settings.validation, guest.instance_extensions(), &**runtime)?;
+    let physical = crate::gpu::Opener::choose(&**runtime, &instance, None)?;
+    let needs = DeviceNeeds {
+        extensions: guest.device_extensions(),
+        foveation: settings.foveation != FoveationLevel::Off,
+        cache: settings.cache.as_deref(),
+        opener: &**runtime,
+    };
+    let device = Device::new(instance, physical, &needs)?;
+    guest.opened(&device)?;
+    let stage = Stage::new(runtime, &device, settings, guest.looks())?;
+    stage.tell(settings);
+    Ok((device, stage))
+}

@@ -1,0 +1,105 @@
+//! The person: what their hands and head do, and where that puts them.
+
+use super::eyes;
+use crate::draw::{Eye, Moment, Solid};
+use crate::host::HostError;
+use crate::host::afloat::Afloat;
+use crate::raft::{Input, Rider, Stick, yaw_of};
+use crate::scene::Scene;
+use crate::sea::SeaMaps;
+use crate::xr::{HANDS, Hand, VIEWS, View};
+use glam::{DVec2, DVec3, Vec3Swizzles};
+
+/// A rider and what floats around them.
+pub struct Ride {
+    rider: Rider,
+    afloat: Afloat,
+}
+
+/// Where a frame is seen from, and what is afloat in it.
+pub struct Ridden<'a> {
+    /// Left, right.
+    pub eyes: [Eye; VIEWS],
+    /// Hands that feel something.
+    pub buzz: [bool; HANDS],
+    solids: &'a [Solid],
+    vignette: f32,
+}
+
+impl Ridden<'_> {
+    /// The frame, with the sea of `maps`.
+    pub fn moment<'a>(&'a self, maps: &'a SeaMaps) -> Moment<'a> {
+        Moment { eyes: &self.eyes, maps, solids: self.solids, vignette: self.vignette }
+    }
+}
+
+impl Ride {
+    /// A rider under the scene's camera, looking where it looks.
+    ///
+    /// # Errors
+    /// Settings of the raft that are out of range.
+    pub fn new(scene: &Scene) -> Result<Self, HostError> {
+        let camera = &scene.camera;
+        let (eye, look) = (DVec3::from(camera.eye), DVec3::from(camera.look));
+        let ahead = look - eye;
+        let heading = f64::atan2(-ahead.x, -ahead.z);
+        Ok(Self { rider: Rider::new(&scene.raft, eye.xz(), heading)?, afloat: Afloat::default() })
+    }
+
+    /// Moves on to `time`, seconds, over the sea of `maps`.
+    pub fn step(
+        &mut self,
+        scene: &Scene,
+        maps: &SeaMaps,
+        time: f64,
+        views: &[View; VIEWS],
+        hands: &[Hand; HANDS],
+    ) -> Ridden<'_> {
+        let head = eyes::head(views);
+        let heading = self.rider.play_space().axes;
+        let (glide, turn) = (self.glide(head.yaw, hands), hands[1].stick);
+        let input = Input {
+            glide,
+            turn: Stick { x: f64::from(turn[0]), y: f64::from(turn[1]) },
+            forward: head.yaw,
+            head,
+        };
+        self.rider.step(maps, time, &input);
+        let mut buzz = [false; HANDS];
+        for (hand, buzz) in hands.iter().zip(&mut buzz) {
+            if hand.recentre {
+                self.rider.recentre();
+                *buzz = true;
+            }
+        }
+        // A snap turn is felt in the hand that made it.
+        let turned = heading.z_axis.dot(self.rider.play_space().axes.z_axis) < SNAPPED;
+        buzz[1] |= turned && scene.raft.smooth_turn == 0.0;
+        let eyes = eyes::eyes(&self.rider, views);
+        self.afloat.begin(&scene.buoys, maps);
+        let between = (eyes[0].position + eyes[1].position) * 0.5;
+        self.afloat.raft(&scene.raft, self.rider.raft().pose(), between);
+        let rider = &self.rider;
+        self.afloat.hands([0, 1].map(|hand| hands[hand].grip.map(|grip| eyes::placed(rider, grip))));
+        #[expect(clippy::cast_possible_truncation, reason = "0 to 1")]
+        let vignette = self.rider.vignette() as f32;
+        Ridden { eyes, buzz, solids: self.afloat.solids(), vignette }
+    }
+
+    /// The left stick, and whatever trigger or pinch pulls towards where its hand points, relative to the head.
+    fn glide(&self, head: f64, hands: &[Hand; HANDS]) -> Stick {
+        let [x, y] = hands[0].stick.map(f64::from);
+        let mut way = DVec2::new(x, y);
+        for hand in hands {
+            if let Some(aim) = hand.aim {
+                let (sin, cos) = (yaw_of(eyes::parts(aim).1) - head).sin_cos();
+                way += DVec2::new(-sin, cos) * f64::from(hand.go);
+            }
+        }
+        let way = way.clamp_length_max(1.0);
+        Stick { x: way.x, y: way.y }
+    }
+}
+
+/// Cosine of an angle that no deck tilts by within a frame and every snap turn exceeds: half of the least, a degree.
+const SNAPPED: f32 = 0.999_96;

@@ -1,0 +1,241 @@
+//! A session and the images that are drawn in it.
+
+use super::HeadsetSettings;
+use crate::draw::{HiddenMesh, NEAR};
+use crate::gpu::{Device, GpuError, Image, ImageInfo, Lent, Recorder, Target, TargetInfo, Turn};
+use crate::host::HostError;
+use crate::host::painter::Painter;
+use crate::xr::vendor::{self, Foveation, HandJoints, ThreadRole};
+use crate::xr::{
+    DepthRange, FrameTime, Input, Layer, Runtime, Session, Swapchain, SwapchainInfo, Usage, VIEWS, XrError,
+    extensions,
+};
+use ash::vk;
+use std::sync::Arc;
+use std::time::Duration;
+
+/// How long an image is waited for before a frame goes without: far longer than a compositor that lives keeps one.
+const IMAGE_PATIENCE: Duration = Duration::from_millis(500);
+
+/// Formats that views are drawn in: what a shader writes is linear, and what is stored is sRGB.
+const COLORS: [vk::Format; 2] = [vk::Format::R8G8B8A8_SRGB, vk::Format::B8G8R8A8_SRGB];
+
+/// In the order they are dropped: views of images before the images, all before the session.
+pub struct Stage {
+    pub target: Target,
+    picture: Option<Image>,
+    color: Swapchain,
+    depth: Option<Swapchain>,
+    pub input: Input,
+    joints: Option<HandJoints>,
+    foveation: Option<Foveation>,
+    refresh_rate: Option<f32>,
+    sustained: bool,
+    pub session: Session,
+}
+
+impl AsRef<Target> for Stage {
+    fn as_ref(&self) -> &Target {
+        &self.target
+    }
+}
+
+impl Stage {
+    /// Begins a session; its frames are copied where somebody `looks`.
+    ///
+    /// # Errors
+    /// The runtime has gone, refuses, or has no format that can be drawn.
+    pub fn new(
+        runtime: &Arc<Runtime>,
+        device: &Arc<Device>,
+        settings: &HeadsetSettings,
+        looks: bool,
+    ) -> Result<Self, HostError> {
+        let session = Session::new(runtime, device)?;
+        let formats = session.formats()?;
+        let format =
+            COLORS.into_iter().find(|format| formats.contains(format)).ok_or_else(|| XrError::Missing {
+                runtime: runtime.name.clone(),
+                what: "images of 8-bit sRGB colours".to_owned(),
+            })?;
+        let size = scaled(runtime, settings.scale);
+        let foveated =
+            settings.foveation != vendor::FoveationLevel::Off && Foveation::is_offered(runtime, device);
+        // Subsampled images cannot be copied from.
+        let subsampled = foveated && !looks && runtime.extensions.meta_vulkan_swapchain_create_info;
+        let usage = Usage::Color { copied: looks };
+        let info = SwapchainInfo { size, format, usage, foveated, subsampled };
+        let color = Swapchain::new(&session, info)?;
+        let takes_depth = runtime.extensions.khr_composition_layer_depth
+            && formats.contains(&crate::gpu::DEPTH_FORMAT)
+            && device.physical.depth_resolve;
+        let depth = takes_depth
+            .then(|| {
+                let info = SwapchainInfo {
+                    format: crate::gpu::DEPTH_FORMAT,
+                    usage: Usage::Depth,
+                    foveated: false,
+                    subsampled: false,
+                    ..info
+                };
+                Swapchain::new(&session, info)
+            })
+            .transpose()?;
+        let foveation = if foveated { Some(Foveation::new(&session, settings.foveation)?) } else { None };
+        if let Some(foveation) = &foveation {
+            foveation.apply(&session, &color)?;
+        }
+        let target = Target::over(
+            device,
+            TargetInfo {
+                extent: vk::Extent2D { width: size[0], height: size[1] },
+                views: VIEWS as u32,
+                format,
+                samples: vk::SampleCountFlags::TYPE_4,
+            },
+            &Lent {
+                colors: color.images(),
+                depths: depth.as_ref().map(Swapchain::images).unwrap_or_default(),
+                density_maps: color.density_maps(),
+                subsampled,
+            },
+        )?;
+        let picture = if looks { Some(copy_of(device, &info)?) } else { None };
+        let input = Input::new(&session)?;
+        let joints = HandJoints::new(&session)?;
+        let refresh_rate = vendor::choose_refresh_rate(&session, settings.refresh_rate)?;
+        let sustained = vendor::sustain(&session)?;
+        vendor::hint(&session, ThreadRole::Renderer, std::process::id())?;
+        Ok(Self { target, picture, color, depth, input, joints, foveation, refresh_rate, sustained, session })
+    }
+
+    /// Says once what was found.
+    pub fn tell(&self, settings: &HeadsetSettings) {
+        let runtime = &self.session.runtime;
+        let [width, height] = self.color.info.size;
+        eprintln!(
+            "headset: {} on {}, {width}x{height} an eye, standing in {:?}",
+            runtime.headset, runtime.name, self.session.space
+        );
+        if !runtime.is_opaque() {
+            eprintln!("headset: its display adds the sea to the room; nothing hides what is behind");
+        }
+        let list = |found: bool| {
+            let names: Vec<_> = extensions::KNOWN
+                .iter()
+                .filter(|known| known.is_in(&runtime.extensions) == found)
+                .map(|known| known.name)
+                .collect();
+            if names.is_empty() { "none".to_owned() } else { names.join(" ") }
+        };
+        eprintln!("extensions found: {}", list(true));
+        eprintln!("extensions missing: {}", list(false));
+        let mut extras: Vec<String> = Vec::new();
+        extras.extend(self.refresh_rate.map(|rate| format!("{rate} Hz")));
+        extras.extend(self.depth.is_some().then(|| "depth submitted".to_owned()));
+        extras.extend(self.foveation.is_some().then(|| format!("foveation {:?}", settings.foveation)));
+        extras.extend(self.sustained.then(|| "sustained clocks".to_owned()));
+        extras.extend(self.joints.is_some().then(|| "hands tracked".to_owned()));
+        eprintln!(
+            "in use: {}",
+            if extras.is_empty() { "nothing extra".to_owned() } else { extras.join(", ") }
+        );
+    }
+
+    /// Says what the hands hold.
+    ///
+    /// # Errors
+    /// The session or the runtime has gone.
+    pub fn tell_hands(&self) -> Result<(), HostError> {
+        for (side, path) in ["left", "right"].into_iter().zip(self.input.profiles(&self.session)?) {
+            if !path.is_empty() {
+                eprintln!("{side} hand: {path}");
+            }
+        }
+        Ok(())
+    }
+
+    /// Has `painter` draw nothing where lenses hide it.
+    ///
+    /// # Errors
+    /// The runtime has gone, or out of memory.
+    pub fn show_hidden_area(&self, painter: &mut Painter) -> Result<(), HostError> {
+        let [left, right] = [self.session.hidden_area(0)?, self.session.hidden_area(1)?];
+        painter.set_hidden_area(
+            [&left, &right].map(|mask| HiddenMesh { vertices: &mask.vertices, indices: &mask.indices }),
+        )
+    }
+
+    /// The images whose turn it is, or nothing where they did not come in time.
+    ///
+    /// # Errors
+    /// The session or the runtime has gone.
+    pub fn acquire(&mut self) -> Result<Option<Turn>, XrError> {
+        let Some(color) = self.color.acquire(IMAGE_PATIENCE)? else { return Ok(None) };
+        let depth = match &mut self.depth {
+            Some(depth) => depth.acquire(IMAGE_PATIENCE)?,
+            None => Some(0),
+        };
+        Ok(depth.map(|depth| Turn { color, depth }))
+    }
+
+    /// Gives the images back, drawn.
+    ///
+    /// # Errors
+    /// The session or the runtime has gone.
+    pub fn release(&mut self) -> Result<(), XrError> {
+        self.color.release()?;
+        self.depth.as_mut().map_or(Ok(()), Swapchain::release)
+    }
+
+    /// Ends the frame with what was drawn.
+    ///
+    /// # Errors
+    /// The session or the runtime has gone.
+    pub fn end(&mut self, time: FrameTime) -> Result<(), XrError> {
+        let range = DepthRange { near: NEAR };
+        let layer = Layer {
+            color: &self.color,
+            depth: self.depth.as_ref().map(|depth| (depth, range)),
+            motion: None,
+        };
+        self.session.end(time, Some(&layer))
+    }
+
+    /// Records a copy of what was drawn, where somebody looks.
+    pub fn copy(&self, commands: Recorder<'_>, turn: Turn) {
+        if let Some(picture) = &self.picture {
+            commands.copy_lent(self.color.images()[turn.color], picture);
+        }
+    }
+
+    /// The copy.
+    pub const fn picture(&self) -> Option<&Image> {
+        self.picture.as_ref()
+    }
+}
+
+/// The recommended size times `scale`, within what the runtime allows.
+fn scaled(runtime: &Runtime, scale: f32) -> [u32; 2] {
+    let size = runtime.size;
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped to what is allowed")]
+    #[expect(clippy::cast_precision_loss, reason = "sizes of images")]
+    let side = |i: usize| ((size.recommended[i] as f32 * scale).round() as u32).clamp(1, size.most[i]);
+    [side(0), side(1)]
+}
+
+fn copy_of(device: &Arc<Device>, info: &SwapchainInfo) -> Result<Image, GpuError> {
+    let usage = vk::ImageUsageFlags::TRANSFER_SRC | vk::ImageUsageFlags::TRANSFER_DST;
+    let copy = ImageInfo {
+        extent: info.size,
+        layers: VIEWS as u32,
+        mips: 1,
+        format: info.format,
+        samples: vk::SampleCountFlags::TYPE_1,
+        // A copy is never drawn into or sampled, but every image has a view, which wants one such use.
+        usage: usage | vk::ImageUsageFlags::SAMPLED,
+        view: vk::ImageViewType::TYPE_2D_ARRAY,
+        subsampled: false,
+    };
+    Image::new(device, "copy of both eyes", copy)
+}

@@ -1,0 +1,75 @@
+//! Who else takes part in a headset's frames.
+
+use crate::draw::{DrawCounts, Eye};
+use crate::gpu::{Device, Image};
+use crate::host::HostError;
+use crate::xr::{HANDS, Hand, VIEWS};
+use std::ffi::CStr;
+use std::sync::Arc;
+
+/// A frame that was just ended.
+pub struct HeadsetFrame<'a> {
+    /// Seconds of the sea.
+    pub time: f64,
+    /// The session's state, as OpenXR names it.
+    pub state: &'static str,
+    /// What was drawn, if anything was.
+    pub drawn: Option<Drawn<'a>>,
+}
+
+/// What a frame showed.
+pub struct Drawn<'a> {
+    /// Where it was seen from: left, right.
+    pub eyes: &'a [Eye; VIEWS],
+    /// What the hands did.
+    pub hands: &'a [Hand; HANDS],
+    /// What it took to draw.
+    pub counts: DrawCounts,
+    /// Bytes uploaded for it.
+    pub uploaded: u64,
+    /// A copy of both views, one a layer, in `TRANSFER_SRC_OPTIMAL`, for guests who [look](Guest::looks).
+    pub picture: Option<&'a Image>,
+}
+
+/// Somebody who looks on. None of this may wait for anything.
+pub trait Guest {
+    /// Called in every turn of the loop; `false` ends the session in order.
+    fn goes_on(&mut self) -> bool;
+
+    /// Whether each frame is copied for this guest.
+    fn looks(&self) -> bool {
+        false
+    }
+
+    /// Vulkan instance extensions that a guest's own window needs.
+    fn instance_extensions(&self) -> &[&'static CStr] {
+        &[]
+    }
+
+    /// Vulkan device extensions that it needs.
+    fn device_extensions(&self) -> &[&'static CStr] {
+        &[]
+    }
+
+    /// A device was opened. It may be another one than before.
+    ///
+    /// # Errors
+    /// What the guest needs of it cannot be had.
+    fn opened(&mut self, _device: &Arc<Device>) -> Result<(), HostError> {
+        Ok(())
+    }
+
+    /// The device is about to go: whatever was made on it goes first.
+    fn closing(&mut self) {}
+
+    /// The session entered a state.
+    fn state(&mut self, _name: &'static str) {}
+
+    /// A frame was ended.
+    ///
+    /// # Errors
+    /// Whatever should end the run.
+    fn frame(&mut self, _frame: &HeadsetFrame<'_>) -> Result<(), HostError> {
+        Ok(())
+    }
+}
