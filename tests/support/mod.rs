@@ -2,6 +2,7 @@
 #![allow(dead_code, reason = "each test uses a part")]
 #![allow(clippy::unwrap_used, clippy::expect_used, reason = "a test may panic")]
 pub mod golden;
+pub mod headset;
 pub mod monado;
 pub mod picture;
 pub mod program;

@@ -57,6 +57,8 @@ pub struct HeadsetReport {
     pub shown: u64,
     /// Frames that the runtime wanted empty, or whose images it did not give in time.
     pub skipped: u64,
+    /// Steps of the sea that were made for a time at which no frame was seen, and made anew.
+    pub missed: u64,
     /// Sessions begun anew after one was lost.
     pub recovered: u32,
     /// Everything validation said, the end included.
@@ -90,6 +92,7 @@ pub fn headset(
     let mut show = Show { scene, settings, sky, sea, pace: Pace::default(), ride: Ride::new(scene)?, report };
     let ended = show.go_on(world, started.opened, guest);
     guest.closing();
+    show.report.missed = show.pace.missed();
     ended.map(|()| show.report)
 }
 

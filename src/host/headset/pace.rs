@@ -59,4 +59,8 @@ impl Pace {
         Ok((seconds, maps))
     }
 
+    /// Steps that were thrown away because a frame was seen at another time than expected.
+    pub const fn missed(&self) -> u64 {
+        self.missed
+    }
 }
