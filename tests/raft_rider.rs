@@ -4,7 +4,7 @@ mod raft_common;
 use glam::{DVec2, DVec3, Mat3, Quat, Vec3};
 use proptest::prelude::*;
 use raft_common::{Wave, breeze, flat, settings};
-use std::f64::consts::FRAC_PI_2;
+use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 use swell::raft::{Head, Horizon, Input, RaftSettings, Rider, Stick};
 use swell::sea::SeaMaps;
 
@@ -72,21 +72,27 @@ fn a_turn_keeps_the_head_where_it_is() {
 
 #[test]
 fn a_turn_does_not_kick_the_raft() {
-    let (mut turning, mut maps, time) = tilted(&settings(), [5.0, -3.0]);
-    let mut still = turning;
     let wave = Wave { length: 20.0, amplitude: 1.0, towards: 0.7 };
-    let mut worst = 0.0_f64;
-    for frame in 1..40 {
-        let now = time + f64::from(frame) / 72.0;
-        wave.fill(&mut maps, now);
-        let flick = if frame == 1 { 1.0 } else { 0.0 };
-        turning.step(&maps, now, &input(EYES, 0.2, flick));
-        still.step(&maps, now, &input(EYES, 0.2, 0.0));
-        let [a, b] = [&turning, &still].map(|rider| rider.to_world(EYES, Quat::IDENTITY).0);
-        worst = worst.max((a - b).length());
+    let mut worst = [0.0_f64; 2];
+    for side in 0..8 {
+        let (sin, cos) = (f64::from(side) * FRAC_PI_4).sin_cos();
+        let head = DVec3::new(0.5 * cos, 1.7, 0.5 * sin);
+        let (mut turning, mut maps, time) = tilted(&settings(), [5.0, -3.0]);
+        let mut still = turning;
+        for frame in 1..40 {
+            let now = time + f64::from(frame) / 72.0;
+            wave.fill(&mut maps, now);
+            turning.step(&maps, now, &input(head, 0.2, if frame == 1 { 1.0 } else { 0.0 }));
+            still.step(&maps, now, &input(head, 0.2, 0.0));
+            let [a, b] = [&turning, &still].map(|rider| rider.to_world(head, Quat::IDENTITY).0);
+            worst[0] = worst[0].max((a - b).length());
+            let [a, b] = [&turning, &still].map(|rider| rider.raft().heave().rate);
+            worst[1] = worst[1].max((a - b).abs());
+        }
     }
-    // The deck is at another place of the wave, a quarter of a metre on: its head tilts elsewhere, by centimetres.
-    assert!(worst < 0.04, "{worst} m");
+    // The deck comes to stand 0.26 m on, where the water rises at another speed, a k omega 0.26 = 0.14 m/s at the most, and
+    // slopes by a k^2 0.26 = 0.026 more. A damper that felt that water jump would add 2 zeta omega 0.26 a k = 0.86 m/s.
+    assert!(worst[0] < 0.06 && worst[1] < 0.2, "{worst:?}");
 }
 
 #[test]
