@@ -4,13 +4,14 @@
 //! - A shader with `override CASCADES` is compiled once for each number of cascades: naga resolves overrides before it
 //!   writes, as SPIR-V gets no specialisation constants from it.
 //! - Each module holds one entry point, because Adreno's compilers have failed on several.
+//! - How often each variant looks into a texture is counted, for docs/frame-cost.md and its test.
 //! - Bindings and the size of the uniform block are reflected into Rust, so no table is kept by hand.
 //!
 //! Output: `$OUT_DIR/shaders.rs` and the `.spv` files it includes. See docs/shaders.md.
 
 use naga::back::{pipeline_constants::process_overrides, spv};
 use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
-use naga::{AddressSpace, Module, TypeInner};
+use naga::{AddressSpace, Block, Expression, Function, Literal, Module, Statement, TypeInner};
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -117,28 +118,36 @@ fn compile(
         let constant = format!("{stem}_{}", entry.name).to_uppercase();
         let mut modules = Vec::new();
         for cascades in 1..=if varies { MAX_CASCADES } else { 1 } {
-            let words = write_spirv(&module, &info, entry, varies.then_some(cascades));
-            modules.push(words.map_err(|message| source.error(None, &message))?);
+            let variant = Variant::write(&module, &info, entry, varies.then_some(cascades));
+            modules.push(variant.map_err(|message| source.error(None, &message))?);
         }
         // The stages that do not look at CASCADES come out the same each time: one of them will do.
         modules.dedup();
         let varies = modules.len() > 1;
         let mut variants = Vec::new();
-        for (cascades, words) in (1..).zip(modules) {
+        let fetches: Vec<String> = modules.iter().map(|variant| variant.fetches.to_string()).collect();
+        for (cascades, Variant { words, .. }) in (1..).zip(modules) {
             let name = format!("{stem}_{}_{cascades}.spv", entry.name);
             let bytes: Vec<u8> = words.iter().flat_map(|word| word.to_le_bytes()).collect();
             fs::write(out.join(&name), bytes).map_err(|e| format!("{name}: {e}"))?;
             variants.push(format!("include_bytes!(concat!(env!(\"OUT_DIR\"), \"/{name}\"))"));
         }
         let about = format!("/// `{}`, `{}`", file.display(), entry.name);
+        let counted = format!("/// Texture fetches of [`{constant}`], at most, each time that it runs");
         let _never = if varies {
-            let list = variants.join(", ");
+            let (list, fetches) = (variants.join(", "), fetches.join(", "));
             writeln!(
                 generated,
-                "{about}, for 1 to {MAX_CASCADES} cascades.\npub static {constant}: [&[u8]; {MAX_CASCADES}] = [{list}];"
+                "{about}, for 1 to {MAX_CASCADES} cascades.\npub static {constant}: [&[u8]; {MAX_CASCADES}] = [{list}];\n\
+                 {counted}.\npub const {constant}_FETCHES: [u32; {MAX_CASCADES}] = [{fetches}];"
             )
         } else {
-            writeln!(generated, "{about}.\npub static {constant}: &[u8] = {};", variants[0])
+            writeln!(
+                generated,
+                "{about}.\npub static {constant}: &[u8] = {};\n\
+                 {counted}.\npub const {constant}_FETCHES: u32 = {};",
+                variants[0], fetches[0]
+            )
         };
     }
     Ok(())
@@ -155,34 +164,76 @@ fn describe(error: &dyn std::error::Error) -> String {
     text
 }
 
-fn write_spirv(
-    module: &Module,
-    info: &ModuleInfo,
-    entry: &naga::EntryPoint,
-    cascades: Option<u32>,
-) -> Result<Vec<u32>, Failure> {
-    let mut constants = naga::back::PipelineConstants::default();
-    if let Some(count) = cascades {
-        constants.insert("CASCADES".to_owned(), f64::from(count));
+/// One entry point for one number of cascades.
+#[derive(PartialEq)]
+struct Variant {
+    words: Vec<u32>,
+    fetches: u32,
+}
+
+impl Variant {
+    fn write(
+        module: &Module,
+        info: &ModuleInfo,
+        entry: &naga::EntryPoint,
+        cascades: Option<u32>,
+    ) -> Result<Self, Failure> {
+        let mut constants = naga::back::PipelineConstants::default();
+        if let Some(count) = cascades {
+            constants.insert("CASCADES".to_owned(), f64::from(count));
+        }
+        let (module, info) = process_overrides(module, info, Some((entry.stage, &entry.name)), &constants)
+            .map_err(|error| describe(&error))?;
+        // The shaders are our own: no padding against hostile indices, endless loops or division by zero.
+        let options = spv::Options {
+            lang_version: (1, 3),
+            flags: spv::WriterFlags::LABEL_VARYINGS,
+            bounds_check_policies: naga::proc::BoundsCheckPolicies {
+                index: naga::proc::BoundsCheckPolicy::Unchecked,
+                buffer: naga::proc::BoundsCheckPolicy::Unchecked,
+                image_load: naga::proc::BoundsCheckPolicy::Unchecked,
+                binding_array: naga::proc::BoundsCheckPolicy::Unchecked,
+            },
+            force_loop_bounding: false,
+            emit_int_div_checks: false,
+            ..spv::Options::default()
+        };
+        let pipeline = spv::PipelineOptions { shader_stage: entry.stage, entry_point: entry.name.clone() };
+        let words =
+            spv::write_vec(&module, &info, &options, Some(&pipeline)).map_err(|error| describe(&error))?;
+        let made =
+            module.entry_points.iter().find(|made| made.name == entry.name && made.stage == entry.stage);
+        let fetches = made.map_or(0, |made| fetches(&module, &made.function, &made.function.body));
+        Ok(Self { words, fetches })
     }
-    let (module, info) = process_overrides(module, info, Some((entry.stage, &entry.name)), &constants)
-        .map_err(|error| describe(&error))?;
-    // The shaders are our own: no padding against hostile indices, endless loops or division by zero.
-    let options = spv::Options {
-        lang_version: (1, 3),
-        flags: spv::WriterFlags::LABEL_VARYINGS,
-        bounds_check_policies: naga::proc::BoundsCheckPolicies {
-            index: naga::proc::BoundsCheckPolicy::Unchecked,
-            buffer: naga::proc::BoundsCheckPolicy::Unchecked,
-            image_load: naga::proc::BoundsCheckPolicy::Unchecked,
-            binding_array: naga::proc::BoundsCheckPolicy::Unchecked,
-        },
-        force_loop_bounding: false,
-        emit_int_div_checks: false,
-        ..spv::Options::default()
+}
+
+/// Texture fetches in `block` of `function` and in what it calls. Of a branch that overrides decide, only the part that
+/// is left counts; of any other both parts do; loops count once.
+fn fetches(module: &Module, function: &Function, block: &Block) -> u32 {
+    let within = |block: &Block| fetches(module, function, block);
+    let is_fetch = |expression: &Expression| {
+        matches!(expression, Expression::ImageSample { .. } | Expression::ImageLoad { .. })
     };
-    let pipeline = spv::PipelineOptions { shader_stage: entry.stage, entry_point: entry.name.clone() };
-    spv::write_vec(&module, &info, &options, Some(&pipeline)).map_err(|error| describe(&error))
+    let count = |statement: &Statement| match statement {
+        Statement::Emit(range) => {
+            range.clone().filter(|&handle| is_fetch(&function.expressions[handle])).count() as u32
+        }
+        Statement::Call { function: called, .. } => {
+            let called = &module.functions[*called];
+            fetches(module, called, &called.body)
+        }
+        Statement::Block(block) => within(block),
+        Statement::If { condition, accept, reject } => match function.expressions[*condition] {
+            Expression::Literal(Literal::Bool(true)) => within(accept),
+            Expression::Literal(Literal::Bool(false)) => within(reject),
+            _ => within(accept) + within(reject),
+        },
+        Statement::Switch { cases, .. } => cases.iter().map(|case| within(&case.body)).sum(),
+        Statement::Loop { body, continuing, .. } => within(body) + within(continuing),
+        _ => 0,
+    };
+    block.iter().map(count).sum()
 }
 
 /// What all shaders together declare.
