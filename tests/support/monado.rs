@@ -187,6 +187,8 @@ impl Service {
             .env("SWELL_XR", "monado")
             .env("XDG_RUNTIME_DIR", self.folder.path())
             .env("XDG_CONFIG_HOME", self.folder.path().join("config"))
+            // In a program Monado talks to standard error about everything.
+            .env("OXR_NO_PRINTING", "1")
             .stdin(Stdio::null());
     }
 }
