@@ -54,7 +54,7 @@ fn counts_are_documented() {
         let mut solids =
             Raft { pose, length: 2.4, width: 2.0, freeboard: 0.25 }.solids(pose.position).to_vec();
         for _ in 0..4 {
-            solids.extend(Buoy { pose, diameter: 0.9, color: Vec3::X.into() }.solids());
+            solids.extend(Buoy { pose, diameter: 0.9, mast: 1.8, color: Vec3::X.into() }.solids());
         }
         for side in [Hand::Left, Hand::Right] {
             solids.extend(hand(pose, side));
