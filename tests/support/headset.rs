@@ -1,7 +1,7 @@
 //! Somebody who looks on while the library's headset host draws: states, eyes, and pictures of chosen frames.
 use super::picture::Picture;
 use std::sync::Arc;
-use swell::draw::{DrawCounts, Eye, Look};
+use swell::draw::{DrawCounts, Eye, Look, Solid};
 use swell::gpu::{Buffer, Commands, Device, MemoryLocation, Validation};
 use swell::host::{Guest, HeadsetFrame, HeadsetReport, HeadsetSettings, HostError, headset};
 use swell::scene::Scene;
@@ -13,6 +13,8 @@ pub struct Seen {
     pub state: &'static str,
     pub eyes: [Eye; VIEWS],
     pub hands: [Hand; HANDS],
+    pub solids: Vec<Solid>,
+    pub vignette: f32,
     pub counts: DrawCounts,
     pub uploaded: u64,
     /// Left, right.
@@ -116,6 +118,8 @@ impl Guest for Watcher {
             state: frame.state,
             eyes: *drawn.eyes,
             hands: *drawn.hands,
+            solids: if wanted { drawn.solids.to_vec() } else { Vec::new() },
+            vignette: drawn.vignette,
             counts: drawn.counts,
             uploaded: drawn.uploaded,
             pictures,

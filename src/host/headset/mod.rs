@@ -18,7 +18,7 @@ use crate::gpu::{Device, DeviceNeeds, Instance, Validation};
 use crate::scene::Scene;
 use crate::sea::SeaAhead;
 use crate::xr::vendor::FoveationLevel;
-use crate::xr::{Demand, EventDataBuffer, Notice, Runtime, XrError};
+use crate::xr::{Demand, EventDataBuffer, HANDS, Notice, Runtime, XrError};
 use pace::Pace;
 use ride::Ride;
 use stage::Stage;
@@ -259,21 +259,21 @@ impl Show<'_> {
         let hands = stage.input.hands(&stage.session, time)?;
         let (seconds, maps) = self.pace.maps(&mut self.sea, time)?;
         let ridden = self.ride.step(self.scene, maps, seconds, &views, &hands);
-        let (buzz, moment) = (ridden.buzz, ridden.moment(maps));
         let index = self.report.shown as usize;
-        let counts = world.painter.paint(index, (&stage.target, turn), moment, |commands| {
+        let counts = world.painter.paint(index, (&stage.target, turn), ridden.moment(maps), |commands| {
             stage.copy(commands, turn);
         })?;
-        let eyes = ridden.eyes;
         stage.release()?;
         stage.end(time)?;
-        for hand in (0..buzz.len()).filter(|&hand| buzz[hand]) {
+        for hand in (0..HANDS).filter(|&hand| ridden.buzz[hand]) {
             stage.input.buzz(&stage.session, hand, 0.5)?;
         }
         self.report.shown += 1;
         let drawn = Drawn {
-            eyes: &eyes,
+            eyes: &ridden.eyes,
             hands: &hands,
+            solids: ridden.solids,
+            vignette: ridden.vignette,
             counts,
             uploaded: world.painter.uploaded(),
             picture: stage.picture(),

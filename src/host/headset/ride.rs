@@ -22,8 +22,10 @@ pub struct Ridden<'a> {
     pub eyes: [Eye; VIEWS],
     /// Hands that feel something.
     pub buzz: [bool; HANDS],
-    solids: &'a [Solid],
-    vignette: f32,
+    /// What floats.
+    pub solids: &'a [Solid],
+    /// How far the vignette is closed.
+    pub vignette: f32,
 }
 
 impl Ridden<'_> {

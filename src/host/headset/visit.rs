@@ -1,6 +1,6 @@
 //! Who else takes part in a headset's frames.
 
-use crate::draw::{DrawCounts, Eye};
+use crate::draw::{DrawCounts, Eye, Solid};
 use crate::gpu::{Device, Image};
 use crate::host::HostError;
 use crate::xr::{HANDS, Hand, VIEWS};
@@ -23,6 +23,10 @@ pub struct Drawn<'a> {
     pub eyes: &'a [Eye; VIEWS],
     /// What the hands did.
     pub hands: &'a [Hand; HANDS],
+    /// What floated on the sea.
+    pub solids: &'a [Solid],
+    /// How far the vignette was closed, 0 to 1.
+    pub vignette: f32,
     /// What it took to draw.
     pub counts: DrawCounts,
     /// Bytes uploaded for it.
