@@ -4,8 +4,11 @@ use clap::{Args, Parser, Subcommand};
 use std::io::{BufWriter, stdout};
 use std::path::PathBuf;
 use swell::commands::query::{Coordinates, Point};
-use swell::commands::{self, BakeOptions, Clock, CommandError, Frames, RenderOptions, bake::Format};
+use swell::commands::{
+    self, BakeOptions, Clock, CommandError, Frames, RenderOptions, RunOptions, bake::Format,
+};
 use swell::draw::Look;
+use swell::lod::Quality;
 use swell::scene::Scene;
 
 /// An ocean simulated on the CPU and drawn with Vulkan.
@@ -18,6 +21,8 @@ pub struct Arguments {
 
 #[derive(Subcommand)]
 enum Command {
+    /// Show a scene in a window, or render a clip where there is no display.
+    Run(Run),
     /// Draw a scene into pictures.
     Render(Render),
     /// Write the sea's maps into files.
@@ -47,6 +52,39 @@ struct Timeline {
     /// Time of frame 0, seconds.
     #[arg(long, default_value_t = 0.0, allow_negative_numbers = true)]
     start: f64,
+}
+
+#[derive(Args)]
+struct Run {
+    #[command(flatten)]
+    scene: SceneFile,
+    /// How finely the sea is drawn: low, medium, high or ultra; as the scene says if not given.
+    #[arg(long, value_parser = quality, value_name = "QUALITY")]
+    quality: Option<Quality>,
+    /// End after N frames; without, when the window is closed.
+    #[arg(long, value_parser = frame_count, value_name = "N")]
+    frames: Option<u64>,
+    /// Write the last frame to this file.
+    #[arg(long, value_name = "F.png")]
+    screenshot: Option<PathBuf>,
+    /// Write a line of JSON for each frame to this file.
+    #[arg(long, value_name = "F.jsonl")]
+    frame_log: Option<PathBuf>,
+    /// Pixels of the window.
+    #[arg(long, default_value = "1280x720", value_parser = picture_size, value_name = "WxH")]
+    size: [u32; 2],
+    /// Folder for the clip that is rendered where there is no display.
+    #[arg(long, default_value = "out", value_name = "DIR")]
+    out: PathBuf,
+    /// Part of the name of the Vulkan device to use.
+    #[arg(long)]
+    device: Option<String>,
+    /// Fail on anything the Vulkan validation layers say.
+    #[arg(long)]
+    validate: bool,
+    /// Worker threads for the sea; one a core if not given.
+    #[arg(long, default_value = "0", hide_default_value = true, value_parser = threads)]
+    threads: usize,
 }
 
 #[derive(Args)]
@@ -129,6 +167,7 @@ impl Arguments {
     /// Does what was asked.
     pub fn run(self, order: &[String]) -> Result<(), CommandError> {
         match self.command {
+            Command::Run(run) => run.run(),
             Command::Render(render) => render.run(),
             Command::Bake(bake) => bake.run(),
             Command::Query(query) => query.run(order),
@@ -149,6 +188,25 @@ impl SceneFile {
 impl Timeline {
     fn clock(&self) -> Result<Clock, CommandError> {
         Ok(Clock::new(self.start, self.fps)?)
+    }
+}
+
+impl Run {
+    fn run(self) -> Result<(), CommandError> {
+        let mut scene = self.scene.load()?;
+        scene.lod.quality = self.quality.unwrap_or(scene.lod.quality);
+        let options = RunOptions {
+            frames: self.frames,
+            screenshot: self.screenshot,
+            frame_log: self.frame_log,
+            size: self.size,
+            out: self.out,
+            device: self.device,
+            validate: self.validate,
+            threads: self.threads,
+            cache: cache_folder(),
+        };
+        commands::run(&scene, &options)
     }
 }
 
@@ -250,6 +308,24 @@ const MOST_THREADS: usize = 1024;
 fn threads(text: &str) -> Result<usize, String> {
     let number = text.parse().ok().filter(|&number| number <= MOST_THREADS);
     number.ok_or_else(|| format!("wanted a number of threads, 1 to {MOST_THREADS}, or 0 for one a core"))
+}
+
+fn quality(text: &str) -> Result<Quality, String> {
+    Ok(match text {
+        "low" => Quality::Low,
+        "medium" => Quality::Medium,
+        "high" => Quality::High,
+        "ultra" => Quality::Ultra,
+        _ => return Err("one of low, medium, high, ultra".to_owned()),
+    })
+}
+
+/// A day's worth at 10 000 a second: no clip of this many is wanted, and numbers of files stay what they are.
+const MOST_FRAMES: u64 = 864_000_000;
+
+fn frame_count(text: &str) -> Result<u64, String> {
+    let number = text.parse().ok().filter(|number| (1..=MOST_FRAMES).contains(number));
+    number.ok_or_else(|| format!("wanted a number of frames, 1 to {MOST_FRAMES}"))
 }
 
 fn picture_size(text: &str) -> Result<[u32; 2], String> {

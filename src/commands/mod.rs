@@ -6,6 +6,7 @@ mod info;
 mod progress;
 pub mod query;
 mod render;
+mod run;
 mod scene_summary;
 
 pub use bake::{BakeError, BakeOptions, BakeReport, bake};
@@ -14,6 +15,7 @@ pub use info::info;
 pub use progress::Progress;
 pub use query::{QueryError, query};
 pub use render::{RenderOptions, render};
+pub use run::{RunOptions, run};
 pub use scene_summary::SceneSummary;
 
 use crate::host::HostError;
@@ -47,6 +49,17 @@ pub enum CommandError {
     /// The answer could not be written.
     #[error("cannot write the answer: {0}")]
     Answer(std::io::Error),
+    /// It ended before all was done.
+    #[error("ended after {drawn} of {wanted} frames")]
+    Early {
+        /// Frames drawn.
+        drawn: u64,
+        /// Frames asked for.
+        wanted: u64,
+    },
+    /// Nobody to tell that the end is wanted.
+    #[error("cannot listen for Ctrl-C: {0}")]
+    Signals(#[from] ctrlc::Error),
     /// The validation layers had something to say.
     #[error("the validation layers sent {count} messages (above)")]
     Validation {

@@ -29,6 +29,9 @@ pub enum GpuError {
         /// What it lacks.
         feature: String,
     },
+    /// The window has no handle to give.
+    #[error("nothing can be shown on this window: {0}")]
+    NoWindow(String),
     /// Validation was asked for and is not installed.
     #[error(
         "the Vulkan validation layer VK_LAYER_KHRONOS_validation is not installed (Debian: apt-get install vulkan-validationlayers)"

@@ -48,6 +48,12 @@ impl Instance {
         let available = unsafe { entry.enumerate_instance_extension_properties(None) }
             .doing("listing the instance's extensions")?;
         let has = |name: &CStr| available.iter().any(|e| e.extension_name_as_c_str() == Ok(name));
+        if let Some(missing) = extensions.iter().find(|name| !has(name)) {
+            return Err(GpuError::NoWindow(format!(
+                "Vulkan's loader or driver lacks {}",
+                missing.to_string_lossy()
+            )));
+        }
         let mut names: Vec<*const c_char> = extensions.iter().map(|name| name.as_ptr()).collect();
         let debug_utils = has(ext::debug_utils::NAME);
         if debug_utils {

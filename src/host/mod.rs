@@ -2,14 +2,23 @@
 
 mod afloat;
 mod cpu;
+mod frame_log;
 mod headless;
 mod headset;
+mod mirror;
 mod painter;
+mod screenshots;
+pub mod view;
+mod window;
 
 pub use afloat::marker;
 pub use cpu::cpu_time;
+pub use frame_log::{FrameLog, FrameRecord};
 pub use headless::{Finished, Headless, HeadlessSettings};
 pub use headset::{Drawn, Guest, HeadsetFrame, HeadsetReport, HeadsetSettings, headset};
+pub use mirror::Mirror;
+pub use screenshots::{Screenshots, read_back};
+pub use window::{DesktopWindow, Ending, Key, WindowHost, WindowSettings};
 
 use crate::draw::{DrawError, SkyError};
 use crate::gpu::GpuError;
@@ -46,6 +55,12 @@ pub enum HostError {
     /// A file.
     #[error(transparent)]
     Output(#[from] OutputError),
+    /// Nothing to open a window on.
+    #[error("no display: {0}")]
+    NoDisplay(String),
+    /// The display went away while a window was on it.
+    #[error("the display is gone")]
+    DisplayGone,
     /// The thread that writes pictures has gone.
     #[error("the picture writer stopped before the last frame")]
     WriterGone,

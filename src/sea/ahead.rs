@@ -5,6 +5,7 @@ use std::{
     any::Any,
     panic::{AssertUnwindSafe, catch_unwind},
     sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError},
+    time::{Duration, Instant},
 };
 
 /// A sea stepped one frame ahead of whoever draws it.
@@ -21,6 +22,8 @@ pub struct SeaAhead {
     spare: Option<SeaMaps>,
     /// Time of the step that is on its way.
     pending: Option<f64>,
+    /// How long the step took whose maps were handed out last.
+    took: Duration,
     _workers: Workers,
 }
 
@@ -39,7 +42,7 @@ enum State {
     /// The driver is at it.
     Busy,
     /// Done.
-    Finished(Result<(), SeaError>, SeaMaps),
+    Finished(Result<Duration, SeaError>, SeaMaps),
     /// The owner or the driver has gone.
     Closed,
 }
@@ -74,7 +77,7 @@ impl SeaAhead {
         let (front, spare) = (Some(sea.new_maps()), Some(sea.new_maps()));
         let driver = Arc::clone(&shared);
         workers.spawn(move || drive(sea, &driver));
-        Self { shared, front, spare, pending: None, _workers: workers }
+        Self { shared, front, spare, pending: None, took: Duration::ZERO, _workers: workers }
     }
 
     /// Begins the step to `time`, unless it is already on its way. One to another time, which somebody began and then
@@ -126,15 +129,23 @@ impl SeaAhead {
         });
         self.pending = None;
         let (result, maps) = finished?;
-        if let Err(error) = result {
-            self.spare = Some(maps);
-            return Err(error);
+        match result {
+            Ok(took) => self.took = took,
+            Err(error) => {
+                self.spare = Some(maps);
+                return Err(error);
+            }
         }
         self.spare = self.front.replace(maps);
         if let Some(time) = following {
             self.begin(time)?;
         }
         self.front.as_ref().ok_or(SeaError::Gone)
+    }
+
+    /// How long the step took whose maps were handed out last.
+    pub const fn last_step(&self) -> Duration {
+        self.took
     }
 }
 
@@ -159,10 +170,12 @@ fn drive(mut sea: Sea, shared: &Shared) {
             }
         });
         let Some((time, mut maps)) = asked else { return };
+        let began = Instant::now();
         let result = catch_unwind(AssertUnwindSafe(|| sea.step(time, &mut maps))).unwrap_or_else(|panic| {
             sea.forget();
             Err(SeaError::Panicked { time, message: words(&*panic) })
         });
+        let result = result.map(|()| began.elapsed());
         let mut state = shared.lock();
         if matches!(*state, State::Closed) {
             return;

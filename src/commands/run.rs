@@ -1,0 +1,122 @@
+//! `swell run`: a scene on a screen, or, where there is none, a clip.
+
+use super::{Clock, CommandError, Frames, RenderOptions, render};
+use crate::draw::Look;
+use crate::gpu::Validation;
+use crate::host::{HostError, WindowHost, WindowSettings};
+use crate::output::{OutputError, atomic::write_whole};
+use crate::scene::Scene;
+use std::fs::File;
+use std::io;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// What `swell run` is asked for.
+#[derive(Clone, Debug)]
+pub struct RunOptions {
+    /// The end comes after so many frames; without, when somebody wants it.
+    pub frames: Option<u64>,
+    /// Where the last frame is kept.
+    pub screenshot: Option<PathBuf>,
+    /// Where a line is written for each frame.
+    pub frame_log: Option<PathBuf>,
+    /// Pixels of the window at first.
+    pub size: [u32; 2],
+    /// A folder for the clip that is rendered where there is neither a display nor a headset.
+    pub out: PathBuf,
+    /// Part of the Vulkan device's name.
+    pub device: Option<String>,
+    /// Fail on anything the validation layers say.
+    pub validate: bool,
+    /// Worker threads for the sea; 0 for one a core.
+    pub threads: usize,
+    /// Where compiled pipelines are kept.
+    pub cache: Option<PathBuf>,
+}
+
+/// Frames of a clip, and how many a second.
+const CLIP: (u64, f64) = (90, 30.0);
+/// Ctrl-C again, while the end is on its way: as the shell tells of a program that it ended.
+const INTERRUPTED: i32 = 130;
+
+/// Shows the scene in a window until somebody wants the end. Where no window can be opened it renders a clip instead, and
+/// then prints the clip's folder.
+///
+/// # Errors
+/// No usable device, the device or the display was lost, fewer frames than were asked for, or a validation message where
+/// those count.
+pub fn run(scene: &Scene, options: &RunOptions) -> Result<(), CommandError> {
+    let stop = listen()?;
+    match window(scene, options, &stop) {
+        Err(CommandError::Host(HostError::NoDisplay(reason))) => {
+            eprintln!("no display ({reason}) and no OpenXR runtime: rendering a clip instead");
+            clip(scene, options)
+        }
+        other => other,
+    }
+}
+
+/// Set once somebody wants the end: Ctrl-C, or what ends a service or a session.
+fn listen() -> Result<Arc<AtomicBool>, CommandError> {
+    let stop = Arc::new(AtomicBool::new(false));
+    let flag = Arc::clone(&stop);
+    ctrlc::set_handler(move || {
+        if flag.swap(true, Ordering::Relaxed) {
+            std::process::exit(INTERRUPTED);
+        }
+    })?;
+    Ok(stop)
+}
+
+fn window(scene: &Scene, options: &RunOptions, stop: &Arc<AtomicBool>) -> Result<(), CommandError> {
+    let settings = WindowSettings {
+        size: options.size,
+        device: options.device.clone(),
+        validation: if options.validate { Validation::On } else { Validation::Off },
+        threads: options.threads,
+        cache: options.cache.clone(),
+        frames: options.frames,
+        screenshot: options.screenshot.clone(),
+        frame_log: options.frame_log.clone(),
+        stop: Arc::clone(stop),
+    };
+    let mut host = WindowHost::new(scene, settings)?;
+    let ended = host.run();
+    let said = host.close();
+    let ending = ended?;
+    if !said.is_empty() {
+        return Err(CommandError::Validation { count: said.len() });
+    }
+    match options.frames {
+        Some(wanted) if !ending.complete => Err(CommandError::Early { drawn: ending.frames, wanted }),
+        _ => Ok(()),
+    }
+}
+
+/// What there is to see without a screen.
+fn clip(scene: &Scene, options: &RunOptions) -> Result<(), CommandError> {
+    let frames = options.frames.unwrap_or(CLIP.0);
+    let render_options = RenderOptions {
+        out: options.out.clone(),
+        frames: Frames::new(0..frames)?,
+        clock: Clock::new(0.0, CLIP.1)?,
+        size: options.size,
+        stereo: false,
+        look: Look::Water,
+        device: options.device.clone(),
+        validate: options.validate,
+        threads: options.threads,
+        cache: options.cache.clone(),
+    };
+    render(scene, &render_options)?;
+    if let Some(path) = &options.screenshot {
+        copy(&options.out.join(format!("frame_{:04}.png", frames - 1)), path)?;
+    }
+    println!("{}", options.out.display());
+    Ok(())
+}
+
+fn copy(from: &Path, to: &Path) -> Result<(), OutputError> {
+    write_whole(to, |mut sink| io::copy(&mut File::open(from)?, &mut sink).map(|_| ()))
+}

@@ -1,0 +1,96 @@
+//! Pictures kept while the program runs, written by threads of their own.
+
+use super::HostError;
+use crate::gpu::{Buffer, Commands, Device, MemoryLocation, Target};
+use crate::output::{OutputError, atomic::write_whole, png};
+use ash::vk;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::thread::{self, JoinHandle};
+
+/// The picture in `target`, an image of its own whose drawing has been submitted: sRGB bytes (RGBA), view after view. Waits
+/// for the device, so that a key is worth it and a frame is not.
+///
+/// # Errors
+/// Out of memory, or the device was lost.
+pub fn read_back(device: &Arc<Device>, target: &Target) -> Result<Vec<u8>, HostError> {
+    let usage = vk::BufferUsageFlags::TRANSFER_DST;
+    let buffer = Buffer::new(device, "screenshot", target.bytes(), usage, MemoryLocation::GpuToCpu)?;
+    let commands = Commands::new(device, "screenshot")?;
+    target.copy_to(commands.begin()?, &buffer);
+    commands.submit()?;
+    commands.wait()?;
+    let length = usize::try_from(target.bytes()).unwrap_or(usize::MAX);
+    Ok(buffer.bytes().get(..length).unwrap_or_default().to_vec())
+}
+
+/// Pictures on their way to files.
+#[derive(Default)]
+pub struct Screenshots {
+    writers: Vec<JoinHandle<Result<(), OutputError>>>,
+    /// No number below this is free.
+    number: u32,
+}
+
+impl Screenshots {
+    /// Writes `pixels`, `views` pictures of `size` one after the other, side by side to `path`.
+    pub fn write(&mut self, path: PathBuf, size: [u32; 2], views: u32, pixels: Vec<u8>) {
+        let work =
+            move || write_whole(&path, |mut sink| png::write_side_by_side(&mut sink, size, views, &pixels));
+        self.writers.push(thread::spawn(work));
+    }
+
+    /// The next free name of `swell_0000.png` and so on in `folder`.
+    pub fn next_name(&mut self, folder: &Path) -> PathBuf {
+        loop {
+            let path = folder.join(format!("swell_{:04}.png", self.number));
+            self.number += 1;
+            if !path.exists() {
+                return path;
+            }
+        }
+    }
+
+    /// Waits for all of them.
+    ///
+    /// # Errors
+    /// The first that could not be written.
+    pub fn finish(&mut self) -> Result<(), OutputError> {
+        let joined = self.writers.drain(..).map(|writer| match writer.join() {
+            Ok(written) => written,
+            Err(panic) => std::panic::resume_unwind(panic),
+        });
+        // All are waited for, also after an error.
+        joined.fold(Ok(()), |all, one| all.and(one))
+    }
+}
+
+impl Drop for Screenshots {
+    fn drop(&mut self) {
+        for writer in self.writers.drain(..) {
+            let _untold = writer.join();
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_go_on_after_what_is_there() {
+        let folder = tempfile::tempdir().unwrap();
+        std::fs::write(folder.path().join("swell_0001.png"), b"").unwrap();
+        let mut screenshots = Screenshots::default();
+        let names: Vec<_> = (0..3).map(|_| screenshots.next_name(folder.path())).collect();
+        let wanted = ["swell_0000.png", "swell_0002.png", "swell_0003.png"];
+        assert_eq!(names, wanted.map(|name| folder.path().join(name)));
+    }
+
+    #[test]
+    fn a_picture_without_a_place_is_an_error() {
+        let mut screenshots = Screenshots::default();
+        screenshots.write(PathBuf::from("/nowhere/a.png"), [1, 1], 1, vec![0; 4]);
+        assert!(screenshots.finish().unwrap_err().to_string().contains("/nowhere/a.png"));
+    }
+}
