@@ -18,6 +18,8 @@ struct Cascade {
 struct Frame {
     // From positions relative to the origin to clip space, for each view.
     view_projection: array<mat4x4f, 2>,
+    // The same for the frame before, from positions relative to this frame's origin.
+    previous_view_projection: array<mat4x4f, 2>,
     // From clip space (x, y, 0, 1) to a direction.
     clip_to_ray: array<mat4x4f, 2>,
     // From tangents of angles to the right and up (x, y) to clip space: factors in xy, then summands in zw.
@@ -66,6 +68,11 @@ struct Frame {
 @group(0) @binding(12) var clamped: sampler;
 // Repeats, and keeps detail at grazing angles.
 @group(0) @binding(13) var oblique: sampler;
+// The maps of the frame before, for motion vectors. A cascade lies still in the world, so both are addressed alike.
+@group(0) @binding(14) var previous_0: texture_2d<f32>;
+@group(0) @binding(15) var previous_1: texture_2d<f32>;
+@group(0) @binding(16) var previous_2: texture_2d<f32>;
+@group(0) @binding(17) var previous_3: texture_2d<f32>;
 
 // From a direction or position along a cascade's axes (u, v) to the world's (x, z); docs/conventions.md.
 fn to_world(uv: vec2f, axes: vec2f) -> vec2f {

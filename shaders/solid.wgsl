@@ -1,16 +1,6 @@
 // Opaque things that float on the sea: unit meshes, turned and stretched, of one matt colour each.
+#include "body.wgsl"
 #include "light.wgsl"
-
-struct Solid {
-    @location(0) vertex: vec3f,
-    @location(1) normal: vec3f,
-    // Its axes in the world times its size; in w red, green and blue.
-    @location(2) x: vec4f,
-    @location(3) y: vec4f,
-    @location(4) z: vec4f,
-    // Its centre; w: share of the distance by which depth brings it forward.
-    @location(5) place: vec4f,
-}
 
 struct SolidVaryings {
     @builtin(position) clip: vec4f,
@@ -26,7 +16,7 @@ const MIRRORED: f32 = 0.06;
 @vertex
 fn vertex_main(in: Solid, @builtin(view_index) view: u32) -> SolidVaryings {
     var out: SolidVaryings;
-    out.position = in.place.xyz + in.x.xyz * in.vertex.x + in.y.xyz * in.vertex.y + in.z.xyz * in.vertex.z;
+    out.position = body_position(in);
     // Normals shrink where the thing is stretched.
     out.normal = in.x.xyz * (in.normal.x / dot(in.x.xyz, in.x.xyz))
         + in.y.xyz * (in.normal.y / dot(in.y.xyz, in.y.xyz))

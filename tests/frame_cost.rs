@@ -24,6 +24,8 @@ fn fetches_are_documented() {
         ("pixel of a solid", [s::SOLID_FRAGMENT_MAIN_FETCHES; 4]),
         ("pixel of the sky", [s::SKY_FRAGMENT_MAIN_FETCHES; 4]),
         ("pixel of the hidden area", [s::HIDDEN_AREA_FRAGMENT_MAIN_FETCHES; 4]),
+        ("vertex of a patch, motion pass", s::MOTION_PATCH_MAIN_FETCHES),
+        ("pixel of the motion pass", [s::MOTION_FRAGMENT_MAIN_FETCHES; 4]),
         ("pixel of the vignette's rim", [s::VIGNETTE_FRAGMENT_MAIN_FETCHES; 4]),
     ];
     for (what, [one, two, three, four]) in rows {

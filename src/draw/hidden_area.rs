@@ -2,7 +2,7 @@
 //! there. OpenXR tells them (`XR_KHR_visibility_mask`) as triangles in the plane one metre before the eye.
 
 use super::counts::DrawCounts;
-use super::renderer::DrawError;
+use super::error::DrawError;
 use super::shaders;
 use super::vertex_input::{by_vertex, field};
 use crate::gpu::{
@@ -35,7 +35,7 @@ impl HiddenArea {
     pub fn new(device: &Arc<Device>, target: &Target, bindings: &Bindings) -> Result<Self, GpuError> {
         let info = PipelineInfo {
             name: "hidden area",
-            vertex: shaders::HIDDEN_AREA_VERTEX_MAIN,
+            vertex: (shaders::HIDDEN_AREA_VERTEX_MAIN, c"vertex_main"),
             fragment: (shaders::HIDDEN_AREA_FRAGMENT_MAIN, c"fragment_main"),
             input: INPUT,
             depth: DepthUse::Solid,

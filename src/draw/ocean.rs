@@ -82,65 +82,70 @@ impl Ocean {
             bytemuck::cast_slice(&skirt_indices),
             vk::BufferUsageFlags::INDEX_BUFFER,
         )?;
-        let make = |layer: &Layer| {
-            let info = |name, vertex, input| PipelineInfo {
-                name,
-                vertex,
-                fragment: (layer.fragment, layer.entry),
-                input,
-                depth: if layer.lines { DepthUse::Raised } else { DepthUse::Solid },
-                blend: Blend::Opaque,
-                cull: false,
-                lines: layer.lines,
-            };
-            let patch = info("patches", shaders::OCEAN_VERTEX_MAIN[cascades - 1], PATCH_INPUT);
-            let skirt = info("skirt", shaders::SKIRT_VERTEX_MAIN, SKIRT_INPUT);
-            let layout = bindings.pipeline_layout;
-            Ok([
-                Pipeline::new(device, target, layout, &patch)?,
-                Pipeline::new(device, target, layout, &skirt)?,
-            ])
-        };
+        let vertex = [
+            (shaders::OCEAN_VERTEX_MAIN[cascades - 1], c"vertex_main"),
+            (shaders::SKIRT_VERTEX_MAIN, c"vertex_main"),
+        ];
+        let make = |layer| surface(device, target, bindings, vertex, layer);
         let layers = layers.iter().map(make).collect::<Result<_, GpuError>>()?;
         Ok(Self { layers, vertices, indices, patterns, pattern_vertices, skirt_vertices, skirt_indices })
     }
 
-    /// Records the draws of `selection`, inside the pass.
+    /// Copies the instances of `selection` to the ring and returns their offset.
     ///
     /// # Errors
     /// The ring is full.
+    pub fn upload(ring: &mut UploadRing, selection: &Selection) -> Result<u64, GpuError> {
+        ring.push(bytemuck::cast_slice(selection.instances()), 16)
+    }
+
+    /// Records the draws of `selection`, whose instances are at `instances` in the ring, inside the pass.
     pub fn draw(
         &self,
         commands: Recorder<'_>,
         bindings: &Bindings,
-        ring: &mut UploadRing,
+        ring: &UploadRing,
+        instances: u64,
         selection: &Selection,
-    ) -> Result<DrawCounts, GpuError> {
-        commands.begin_label(c"sea");
-        let instances = ring.push(bytemuck::cast_slice(selection.instances()), 16)?;
+    ) -> DrawCounts {
         let mut counts = DrawCounts::default();
-        for [patches, skirt] in &self.layers {
-            patches.bind(commands);
-            commands.vertex_buffer(0, self.vertices.raw, 0);
-            commands.vertex_buffer(1, ring.buffer(), instances);
-            commands.index_buffer(&self.indices);
-            for batch in selection.batches() {
-                bindings.push(commands, u32::from(batch.pattern.bits()));
-                let indices = self.patterns[batch.pattern.index()].clone();
-                let (triangles, patches) = (indices.len() as u32 / 3, batch.instances.len() as u32);
-                commands.draw_indexed(indices, batch.instances);
-                counts += DrawCounts::draw(triangles, self.pattern_vertices[batch.pattern.index()], patches);
-                counts.patches += patches;
-            }
-            skirt.bind(commands);
-            commands.vertex_buffer(0, self.skirt_vertices.raw, 0);
-            commands.index_buffer(&self.skirt_indices);
-            commands.draw_indexed(0..lod::skirt::SKIRT_INDICES as u32, 0..1);
-            let skirt = [lod::skirt::SKIRT_INDICES / 3, lod::skirt::SKIRT_VERTICES].map(|n| n as u32);
-            counts += DrawCounts::draw(skirt[0], skirt[1], 1);
+        for surface in &self.layers {
+            counts += self.draw_with(surface, commands, bindings, (ring, instances), selection);
         }
+        counts
+    }
+
+    /// The same with other pipelines. `instances` are a ring and where they are in it.
+    pub fn draw_with(
+        &self,
+        [patches, skirt]: &[Pipeline; 2],
+        commands: Recorder<'_>,
+        bindings: &Bindings,
+        instances: (&UploadRing, u64),
+        selection: &Selection,
+    ) -> DrawCounts {
+        commands.begin_label(c"sea");
+        let mut counts = DrawCounts::default();
+        patches.bind(commands);
+        commands.vertex_buffer(0, self.vertices.raw, 0);
+        commands.vertex_buffer(1, instances.0.buffer(), instances.1);
+        commands.index_buffer(&self.indices);
+        for batch in selection.batches() {
+            bindings.push(commands, u32::from(batch.pattern.bits()));
+            let indices = self.patterns[batch.pattern.index()].clone();
+            let (triangles, patches) = (indices.len() as u32 / 3, batch.instances.len() as u32);
+            commands.draw_indexed(indices, batch.instances);
+            counts += DrawCounts::draw(triangles, self.pattern_vertices[batch.pattern.index()], patches);
+            counts.patches += patches;
+        }
+        skirt.bind(commands);
+        commands.vertex_buffer(0, self.skirt_vertices.raw, 0);
+        commands.index_buffer(&self.skirt_indices);
+        commands.draw_indexed(0..lod::skirt::SKIRT_INDICES as u32, 0..1);
+        let skirt = [lod::skirt::SKIRT_INDICES / 3, lod::skirt::SKIRT_VERTICES].map(|n| n as u32);
+        counts += DrawCounts::draw(skirt[0], skirt[1], 1);
         commands.end_label();
-        Ok(counts)
+        counts
     }
 
     /// Bytes of instances that a frame may need.
@@ -149,7 +154,37 @@ impl Ocean {
     }
 }
 
-/// `Patch` of `shaders/ocean.wgsl`: a grid vertex, and an instance of [`lod::Instance`].
+/// SPIR-V of a stage and its entry point.
+pub type Stage = (&'static [u8], &'static CStr);
+
+/// Pipelines of the patches and of the skirt, with their `vertex` stages in this order.
+///
+/// # Errors
+/// The driver refuses, or cannot draw lines.
+pub fn surface(
+    device: &Arc<Device>,
+    target: &Target,
+    bindings: &Bindings,
+    vertex: [Stage; 2],
+    layer: &Layer,
+) -> Result<[Pipeline; 2], GpuError> {
+    let make = |name, vertex, input| {
+        let info = PipelineInfo {
+            name,
+            vertex,
+            fragment: (layer.fragment, layer.entry),
+            input,
+            depth: if layer.lines { DepthUse::Raised } else { DepthUse::Solid },
+            blend: Blend::Opaque,
+            cull: false,
+            lines: layer.lines,
+        };
+        Pipeline::new(device, target, bindings.pipeline_layout, &info)
+    };
+    Ok([make("patches", vertex[0], PATCH_INPUT)?, make("skirt", vertex[1], SKIRT_INPUT)?])
+}
+
+/// `Patch` of `shaders/patch.wgsl`: a grid vertex, and an instance of [`lod::Instance`].
 const PATCH_INPUT: VertexInput<'static> = VertexInput {
     bindings: &[by_vertex(0, 4), by_instance(1, size_of::<lod::Instance>())],
     attributes: &[

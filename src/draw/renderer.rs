@@ -3,60 +3,42 @@
 use super::camera;
 use super::counts::DrawCounts;
 use super::debug_view::Look;
+use super::error::DrawError;
 use super::foam_pattern;
 use super::hidden_area::{HiddenArea, HiddenMesh};
 use super::moment::Moment;
+use super::motion::{self, Motion};
 use super::ocean::Ocean;
 use super::sea_textures::SeaTextures;
 use super::shaders::BINDINGS;
 use super::sky::Sky;
 use super::sky_map::{self, SkyMap};
-use super::solids::{MOST_SOLIDS, Solids};
+use super::solids::{Solids, Uploaded};
 use super::uniforms::{Frame, Spacing};
 use super::vignette::Vignette;
 use crate::gpu::{
     Bindings, Device, FRAMES_IN_FLIGHT, GpuError, Image, ImageInfo, Recorder, Resource, Sampler, Target,
     Turn, UploadRing, upload_image,
 };
-use crate::lod::{Frustum, LodError, Quadtree, vertex_spacing};
+use crate::lod::{Frustum, Quadtree, vertex_spacing};
 use crate::scene::Scene;
 use ash::vk;
 use glam::DVec3;
 use std::sync::Arc;
 
-/// A frame that cannot be drawn.
-#[derive(Debug, thiserror::Error)]
-pub enum DrawError {
-    /// Vulkan or memory.
-    #[error(transparent)]
-    Gpu(#[from] GpuError),
-    /// The scene's level of detail.
-    #[error(transparent)]
-    Lod(#[from] LodError),
-    /// More than there is room for.
-    #[error("{count} solids in a frame, at most {MOST_SOLIDS} are drawn")]
-    TooManySolids {
-        /// How many.
-        count: usize,
-    },
-    /// A hidden area that ends in the middle of a triangle.
-    #[error("a hidden area of {count} indices, a multiple of 3 is needed")]
-    HiddenIndices {
-        /// How many.
-        count: usize,
-    },
-    /// A hidden area whose triangle has no such corner.
-    #[error("index {index} of a hidden area is not below {vertices}, the number of its vertices")]
-    HiddenIndex {
-        /// The index.
-        index: u32,
-        /// How many vertices there are.
-        vertices: usize,
-    },
-}
-
 /// Room for instances: some ten times what the largest tree draws.
 const MOST_PATCHES: usize = 4096;
+
+/// Where the frame recorded last has put things in the ring.
+struct Latest {
+    slot: usize,
+    uniforms: u32,
+    instances: u64,
+    solids: Uploaded,
+    solids_before: Option<u64>,
+    /// The frame before is known, so that things can have moved.
+    looks_back: bool,
+}
 
 /// Everything a scene needs to be drawn into targets of one kind.
 pub struct Renderer {
@@ -65,6 +47,9 @@ pub struct Renderer {
     ocean: Ocean,
     sky: Option<Sky>,
     vignette: Option<Vignette>,
+    motion: Option<Motion>,
+    latest: Option<Latest>,
+    cascades: usize,
     look: Look,
     tree: Quadtree,
     frusta: Vec<Frustum>,
@@ -102,7 +87,7 @@ impl Renderer {
         let uniform_align = limits.min_uniform_buffer_offset_alignment.max(16);
         let share = SeaTextures::bytes(&scene.sea)
             + Ocean::instance_bytes(MOST_PATCHES)
-            + Solids::BYTES
+            + 2 * Solids::BYTES
             + size_of::<Frame>() as u64
             + uniform_align
             + 1024;
@@ -118,17 +103,19 @@ impl Renderer {
         let textures = (0..FRAMES_IN_FLIGHT)
             .map(|_| SeaTextures::new(device, &scene.sea))
             .collect::<Result<Vec<_>, _>>()?;
-        for (slot, textures) in textures.iter().enumerate() {
+        for (slot, now) in textures.iter().enumerate() {
+            let before = &textures[motion::slot_before(slot)];
             bindings.write(slot, |binding| match binding {
                 0 => Resource::Uniform(ring.buffer(), size_of::<Frame>() as u64),
                 // Shaders for fewer cascades never look at the textures of the others: any image will do there.
-                1..=4 => Resource::Texture(&textures.displacement[(binding as usize - 1).min(cascades - 1)]),
-                5..=8 => Resource::Texture(&textures.gradient[(binding as usize - 5).min(cascades - 1)]),
+                1..=4 => Resource::Texture(&now.displacement[(binding as usize - 1).min(cascades - 1)]),
+                5..=8 => Resource::Texture(&now.gradient[(binding as usize - 5).min(cascades - 1)]),
                 9 => Resource::Texture(&shared.0),
                 10 => Resource::Texture(&shared.1),
                 11 => Resource::Sampler(&shared.2[0]),
                 12 => Resource::Sampler(&shared.2[1]),
-                _ => Resource::Sampler(&shared.2[2]),
+                13 => Resource::Sampler(&shared.2[2]),
+                _ => Resource::Texture(&before.displacement[(binding as usize - 14).min(cascades - 1)]),
             });
         }
         Ok(Self {
@@ -137,6 +124,9 @@ impl Renderer {
             ocean,
             sky,
             vignette,
+            motion: None,
+            latest: None,
+            cascades,
             look,
             tree,
             frusta: Vec::with_capacity(2),
@@ -170,24 +160,81 @@ impl Renderer {
         self.ring.begin(slot as u64);
         let origin = DVec3::new(selection.origin().x, 0.0, selection.origin().y);
         self.still.turn(moment, origin);
+        self.latest = None;
+        let before = self.motion.as_ref().and_then(|motion| motion.before(slot));
+        self.still.look_back(before.map_or(eyes, |before| before.eyes), origin);
         let uniforms = self.ring.push(bytemuck::bytes_of(&self.still), self.uniform_align)?;
         self.textures[slot].upload(commands, &mut self.ring, moment.maps)?;
-        let solids = match &mut self.solids {
-            Some(solids) => Some((solids.upload(&mut self.ring, moment.solids, origin)?, &*solids)),
-            None => None,
-        };
-        target.begin(commands, turn, self.look.clear());
-        self.bindings.bind(commands, slot, u32::try_from(uniforms).unwrap_or(u32::MAX));
-        let mut counts = self.hidden_area.draw(commands);
-        if let Some((uploaded, solids)) = solids {
-            counts += solids.draw(commands, &self.ring, &uploaded);
+        let instances = Ocean::upload(&mut self.ring, selection)?;
+        let (mut solids, mut solids_before) = (Uploaded::default(), None);
+        if let Some(own) = &mut self.solids {
+            solids = own.upload(&mut self.ring, moment.solids, origin)?;
+            if let Some(before) = before {
+                let offset = own.upload_before(&mut self.ring, moment.solids, before.solids, origin)?;
+                solids_before = Some(offset);
+            }
         }
-        counts += self.ocean.draw(commands, &self.bindings, &mut self.ring, selection)?;
+        let uniforms = u32::try_from(uniforms).unwrap_or(u32::MAX);
+        let looks_back = before.is_some();
+        target.begin(commands, turn, self.look.clear());
+        self.bindings.bind(commands, slot, uniforms);
+        let mut counts = self.hidden_area.draw(commands);
+        if let Some(own) = &self.solids {
+            counts += own.draw(commands, &self.ring, &solids);
+        }
+        counts += self.ocean.draw(commands, &self.bindings, &self.ring, instances, selection);
         if let Some(sky) = &self.sky {
             counts += sky.draw(commands);
         }
         if let Some(vignette) = self.vignette.as_ref().filter(|_| moment.vignette > 0.0) {
             counts += vignette.draw(commands);
+        }
+        target.end(commands);
+        if let Some(motion) = &mut self.motion {
+            motion.remember(slot, moment);
+        }
+        self.latest = Some(Latest { slot, uniforms, instances, solids, solids_before, looks_back });
+        Ok(counts)
+    }
+
+    /// Makes what [`Self::record_motion`] needs to draw into targets like `target`: one sample, four signed 16-bit floats,
+    /// as many views as the frames have.
+    ///
+    /// # Errors
+    /// Out of memory, or the driver refuses.
+    pub fn prepare_motion(&mut self, device: &Arc<Device>, target: &Target) -> Result<(), DrawError> {
+        self.motion = Some(Motion::new(device, target, &self.bindings, self.cascades)?);
+        self.latest = None;
+        Ok(())
+    }
+
+    /// Records the motion vectors of the frame recorded last, after it and in the same commands, into the images of a
+    /// `target` of any size whose `turn` it is: normalised device coordinates (y down, depth reversed) now less those in the frame before, in x, y and z;
+    /// 1 in w. All zero where no frame was recorded before, or not in the other slot.
+    ///
+    /// # Errors
+    /// No frame was recorded since [`Self::prepare_motion`].
+    pub fn record_motion(
+        &self,
+        commands: Recorder<'_>,
+        target: &Target,
+        turn: Turn,
+    ) -> Result<DrawCounts, DrawError> {
+        let (Some(motion), Some(latest)) = (&self.motion, &self.latest) else {
+            return Err(DrawError::NoMotion);
+        };
+        let mut counts = DrawCounts::default();
+        target.begin(commands, turn, [0.0; 4]);
+        if latest.looks_back {
+            self.bindings.bind(commands, latest.slot, latest.uniforms);
+            if let (Some(solids), Some(before)) = (&self.solids, latest.solids_before) {
+                commands.vertex_buffer(2, self.ring.buffer(), before);
+                counts += solids.draw_with(&motion.solids, commands, &self.ring, &latest.solids);
+            }
+            let instances = (&self.ring, latest.instances);
+            let selection = self.tree.selection();
+            counts += self.ocean.draw_with(&motion.surface, commands, &self.bindings, instances, selection);
+            counts += motion.draw_sky(commands);
         }
         target.end(commands);
         Ok(counts)

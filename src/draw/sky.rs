@@ -18,7 +18,7 @@ impl Sky {
     pub fn new(device: &Arc<Device>, target: &Target, bindings: &Bindings) -> Result<Self, GpuError> {
         let info = PipelineInfo {
             name: "sky",
-            vertex: shaders::SKY_VERTEX_MAIN,
+            vertex: (shaders::SKY_VERTEX_MAIN, c"vertex_main"),
             fragment: (shaders::SKY_FRAGMENT_MAIN, c"fragment_main"),
             input: VertexInput::default(),
             depth: DepthUse::Background,

@@ -1,7 +1,7 @@
 //! Opaque, lit things that float on the sea.
 
 use super::counts::DrawCounts;
-use super::renderer::DrawError;
+use super::error::DrawError;
 use super::shaders;
 use super::solid_meshes::{Meshes, Part, SolidVertex};
 use super::vertex_input::{by_instance, by_vertex, field};
@@ -71,7 +71,7 @@ impl Pose {
     }
 }
 
-/// `Solid` of `shaders/solid.wgsl`: three axes times the size, each with a channel of the colour, and the centre
+/// `Solid` of `shaders/body.wgsl`: three axes times the size, each with a channel of the colour, and the centre
 /// relative to the frame's origin, with the lead.
 #[repr(C)]
 #[derive(Clone, Copy, Default, Pod, Zeroable)]
@@ -96,7 +96,7 @@ pub struct Solids {
 }
 
 /// A frame's instances in the upload ring, by shape.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Uploaded {
     offset: u64,
     shapes: [Range<u32>; 3],
@@ -125,7 +125,7 @@ impl Solids {
         let indices = upload_buffer(device, "solid indices", bytemuck::cast_slice(&meshes.indices), usage)?;
         let info = PipelineInfo {
             name: "solids",
-            vertex: shaders::SOLID_VERTEX_MAIN,
+            vertex: (shaders::SOLID_VERTEX_MAIN, c"vertex_main"),
             fragment: (shaders::SOLID_FRAGMENT_MAIN, c"fragment_main"),
             input: INPUT,
             depth: DepthUse::Solid,
@@ -161,14 +161,48 @@ impl Solids {
         Ok(Uploaded { offset, shapes })
     }
 
+    /// Copies `before` to the ring as [`Self::upload`] did `now`: relative to the same `origin`, in the same order. What
+    /// has no counterpart is taken to have stood still.
+    ///
+    /// # Errors
+    /// The ring is full.
+    pub fn upload_before(
+        &mut self,
+        ring: &mut UploadRing,
+        now: &[Solid],
+        before: &[Solid],
+        origin: DVec3,
+    ) -> Result<u64, DrawError> {
+        self.instances.clear();
+        for shape in SHAPES {
+            let of_shape = now.iter().enumerate().filter(|(_, solid)| solid.shape == shape);
+            self.instances.extend(of_shape.map(|(i, solid)| {
+                let earlier = before.get(i).filter(|earlier| earlier.shape == shape);
+                SolidInstance::new(earlier.unwrap_or(solid), origin)
+            }));
+        }
+        Ok(ring.push(bytemuck::cast_slice(&self.instances), 16)?)
+    }
+
     /// Draws what was uploaded, inside the pass: one call for each shape that there is.
     pub fn draw(&self, commands: Recorder<'_>, ring: &UploadRing, uploaded: &Uploaded) -> DrawCounts {
+        self.draw_with(&self.pipeline, commands, ring, uploaded)
+    }
+
+    /// The same with another pipeline.
+    pub fn draw_with(
+        &self,
+        pipeline: &Pipeline,
+        commands: Recorder<'_>,
+        ring: &UploadRing,
+        uploaded: &Uploaded,
+    ) -> DrawCounts {
         let mut counts = DrawCounts::default();
-        if self.instances.is_empty() {
+        if uploaded.shapes.iter().all(Range::is_empty) {
             return counts;
         }
         commands.begin_label(c"solids");
-        self.pipeline.bind(commands);
+        pipeline.bind(commands);
         commands.vertex_buffer(0, self.vertices.raw, 0);
         commands.vertex_buffer(1, ring.buffer(), uploaded.offset);
         commands.index_buffer(&self.indices);
@@ -187,7 +221,7 @@ impl Solids {
 
 const ROW: vk::Format = vk::Format::R32G32B32A32_SFLOAT;
 
-/// `Solid` of `shaders/solid.wgsl`.
+/// `Solid` of `shaders/body.wgsl`.
 const INPUT: VertexInput<'static> = VertexInput {
     bindings: &[by_vertex(0, size_of::<SolidVertex>()), by_instance(1, size_of::<SolidInstance>())],
     attributes: &[
@@ -197,5 +231,26 @@ const INPUT: VertexInput<'static> = VertexInput {
         field(3, 1, ROW, 16),
         field(4, 1, ROW, 32),
         field(5, 1, ROW, 48),
+    ],
+};
+
+/// The same, and `Before` of `shaders/motion.wgsl`.
+pub const MOTION_INPUT: VertexInput<'static> = VertexInput {
+    bindings: &[
+        by_vertex(0, size_of::<SolidVertex>()),
+        by_instance(1, size_of::<SolidInstance>()),
+        by_instance(2, size_of::<SolidInstance>()),
+    ],
+    attributes: &[
+        field(0, 0, vk::Format::R32G32B32_SFLOAT, 0),
+        field(1, 0, vk::Format::R32G32B32_SFLOAT, 12),
+        field(2, 1, ROW, 0),
+        field(3, 1, ROW, 16),
+        field(4, 1, ROW, 32),
+        field(5, 1, ROW, 48),
+        field(6, 2, ROW, 0),
+        field(7, 2, ROW, 16),
+        field(8, 2, ROW, 32),
+        field(9, 2, ROW, 48),
     ],
 };

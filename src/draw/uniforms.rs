@@ -1,6 +1,6 @@
 //! The uniform block: the Rust twin of `shaders/frame.wgsl`.
 
-use super::camera;
+use super::camera::{self, Eye};
 use super::moment::Moment;
 use super::shaders::UNIFORM_SIZE;
 use super::sky_map::{self, SkyMap};
@@ -26,6 +26,7 @@ pub struct Cascade {
 #[derive(Clone, Copy, Default, Pod, Zeroable)]
 pub struct Frame {
     view_projection: [Mat4; 2],
+    previous_view_projection: [Mat4; 2],
     clip_to_ray: [Mat4; 2],
     view_scale: [Vec4; 2],
     eyes: [Vec4; 2],
@@ -106,6 +107,13 @@ impl Frame {
                 spacing.coarsest as f32,
             ),
             ..Self::default()
+        }
+    }
+
+    /// Tells where `eyes` were in the frame before.
+    pub fn look_back(&mut self, eyes: &[Eye], origin: DVec3) {
+        for (matrix, eye) in self.previous_view_projection.iter_mut().zip(eyes) {
+            *matrix = eye.view_projection(origin);
         }
     }
 

@@ -32,7 +32,7 @@ impl Vignette {
     pub fn new(device: &Arc<Device>, target: &Target, bindings: &Bindings) -> Result<Self, GpuError> {
         let info = PipelineInfo {
             name: "vignette",
-            vertex: shaders::VIGNETTE_VERTEX_MAIN,
+            vertex: (shaders::VIGNETTE_VERTEX_MAIN, c"vertex_main"),
             fragment: (shaders::VIGNETTE_FRAGMENT_MAIN, c"fragment_main"),
             input: VertexInput::default(),
             depth: DepthUse::Ignored,

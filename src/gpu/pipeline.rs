@@ -43,8 +43,8 @@ pub struct VertexInput<'a> {
 pub struct PipelineInfo<'a> {
     /// Name for validation messages and captures.
     pub name: &'a str,
-    /// SPIR-V of the vertex stage: entry point `vertex_main`.
-    pub vertex: &'a [u8],
+    /// SPIR-V of the vertex stage and its entry point.
+    pub vertex: (&'a [u8], &'a std::ffi::CStr),
     /// SPIR-V of the fragment stage and its entry point.
     pub fragment: (&'a [u8], &'a std::ffi::CStr),
     /// Vertex buffers.
@@ -80,13 +80,13 @@ impl Pipeline {
             let feature = "fillModeNonSolid, which --debug wireframe needs".to_owned();
             return Err(GpuError::Missing { device: device.physical.name.clone(), feature });
         }
-        let vertex = Module::new(device, info.vertex)?;
+        let vertex = Module::new(device, info.vertex.0)?;
         let fragment = Module::new(device, info.fragment.0)?;
         let stage = |flag, module: &Module, entry| {
             vk::PipelineShaderStageCreateInfo::default().stage(flag).module(module.raw).name(entry)
         };
         let stages = [
-            stage(vk::ShaderStageFlags::VERTEX, &vertex, c"vertex_main"),
+            stage(vk::ShaderStageFlags::VERTEX, &vertex, info.vertex.1),
             stage(vk::ShaderStageFlags::FRAGMENT, &fragment, info.fragment.1),
         ];
         let input = vk::PipelineVertexInputStateCreateInfo::default()
