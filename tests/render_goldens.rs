@@ -1,13 +1,14 @@
-//! Golden pictures of the shipped scenes, of every debug view, and of a stereo pair.
+//! Golden pictures of the shipped scenes, of every debug view, of a stereo pair, and of what a headset sees besides.
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 mod support;
 
-use glam::DVec3;
+use glam::{DVec3, Mat3, Vec3};
 use std::collections::BTreeSet;
 use support::golden;
 use support::program::names;
 use support::stage::{SCENES, Stage, eye, shipped};
-use swell::draw::{Fov, Look};
+use swell::draw::{Buoy, Eye, Fov, Hand, Look, Pose, Raft, hand, ray};
+use swell::sea::{Sea, SeaMaps, Surface};
 
 /// Seconds: any moment but 0, where every harmonic begins.
 const TIME: f64 = 12.5;
@@ -79,10 +80,60 @@ fn stereo() {
     golden::check("stereo", &stage.picture(TIME, &[]));
 }
 
+/// Afloat at world (x, z), as level as the water `half` metres around.
+fn afloat(maps: &SeaMaps, x: f64, z: f64, half: f64) -> Pose {
+    let height = |dx, dz| Surface::above(maps, x + dx, z + dz).height();
+    let [east, west, south, north] =
+        [height(half, 0.0), height(-half, 0.0), height(0.0, half), height(0.0, -half)];
+    let up =
+        DVec3::new((west - east) / (2.0 * half), 1.0, (north - south) / (2.0 * half)).normalize().as_vec3();
+    let right = Vec3::X.reject_from(up).normalize();
+    let y = 0.25 * (east + west + south + north);
+    Pose { position: DVec3::new(x, y, z), axes: Mat3::from_cols(right, up, right.cross(up)) }
+}
+
+/// Aboard a raft among buoys, a controller in each hand, the vignette half closed.
+#[test]
+fn raft() {
+    let scene = shipped("calm");
+    let mut sea = Sea::new(&scene.sea).unwrap();
+    let mut maps = sea.new_maps();
+    sea.step(TIME, &mut maps).unwrap();
+    let mut pose = afloat(&maps, 0.0, 0.0, 1.0);
+    pose.position = pose.at(0.25 * Vec3::Y);
+    let head = pose.at(Vec3::new(0.0, 1.6, 0.3));
+    let mut solids = Raft { pose, length: 2.4, width: 2.0, freeboard: 0.25 }.solids(head).to_vec();
+    let places = [
+        (-1.5, -5.0, [0.70, 0.05, 0.02]),
+        (2.2, -9.0, [0.75, 0.50, 0.02]),
+        (-4.0, -25.0, [0.02, 0.40, 0.10]),
+    ];
+    for (x, z, color) in places {
+        solids.extend(Buoy { pose: afloat(&maps, x, z, 0.4), diameter: 0.9, color }.solids());
+    }
+    for (side, x) in [(Hand::Left, -0.2), (Hand::Right, 0.2)] {
+        let grip =
+            Pose { position: pose.at(Vec3::new(x, 1.2, -0.3)), axes: pose.axes * Mat3::from_rotation_x(0.5) };
+        solids.extend(hand(grip, side));
+        solids.push(ray(grip, 3.0, side));
+    }
+    let mut stage = Stage::new(&scene, [160, 180], 2, Look::Water, TIME);
+    stage.host.set_scenery(&solids, 0.5);
+    let middle = eye(head, [0.0, -0.45, 0.0], Fov::symmetric(1.0, 1.0));
+    let fov = |left, right| Fov { left, right, up: 0.95, down: -1.05 };
+    let eyes = [(-0.0315, fov(-1.0, 0.8)), (0.0315, fov(-0.8, 1.0))].map(|(shift, fov)| Eye {
+        position: head + DVec3::X * shift,
+        fov,
+        ..middle
+    });
+    golden::check("raft", &stage.picture(TIME, &eyes));
+}
+
 #[test]
 fn every_golden_picture_has_a_test_and_is_small() {
     let wanted = SCENES.map(str::to_owned).into_iter();
-    let wanted = wanted.chain(VIEWS.map(|view| format!("debug_{view}"))).chain(["stereo".to_owned()]);
+    let wanted =
+        wanted.chain(VIEWS.map(|view| format!("debug_{view}"))).chain(["stereo", "raft"].map(str::to_owned));
     let wanted: BTreeSet<String> = wanted.map(|name| format!("{name}.png")).collect();
     let found: BTreeSet<String> = names(&golden::folder()).into_iter().collect();
     assert_eq!(found, wanted);
