@@ -32,7 +32,7 @@ pub struct Input {
 
 /// Play space in the world.
 struct Frame {
-    /// Where the deck's centre is, or would be were the horizon not held.
+    /// The deck's centre; under a still horizon at the height the view follows.
     position: DVec3,
     rotation: DQuat,
 }
