@@ -1,7 +1,7 @@
 //! The layer that injects faults, met by a small client on Monado: each fault arrives as it should, and nothing else.
 //! A test starts a service and runs the ignored test of the same name on it, in a process of its own.
 #![allow(clippy::unwrap_used, clippy::expect_used, reason = "a test may panic")]
-#[path = "fault_layer/client.rs"]
+#[path = "fault_layer/client/mod.rs"]
 mod client;
 mod support;
 

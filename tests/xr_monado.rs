@@ -1,6 +1,6 @@
 //! What the tests of headsets stand on: a runtime for each test, which can be killed, told what to do, and validated.
 #![allow(clippy::unwrap_used, clippy::expect_used, reason = "a test may panic")]
-#[path = "fault_layer/client.rs"]
+#[path = "fault_layer/client/mod.rs"]
 mod client;
 mod support;
 
@@ -9,9 +9,10 @@ use openxr as xr;
 use std::process::Stdio;
 use std::time::Duration;
 use support::faults;
-use support::monado::{Devices, Service, Settings};
+use support::monado::{Compositor, Devices, Service, Settings};
 use support::program::run;
 use support::remote::{Body, Pose, Remote};
+use support::xvfb::Xvfb;
 
 #[test]
 fn services_run_side_by_side_and_come_back_after_being_killed() {
@@ -109,4 +110,23 @@ fn ends_a_frame_wrongly() {
     let mut client = Client::new(instance().unwrap()).unwrap();
     client.until(xr::SessionState::READY).unwrap();
     assert_eq!(client.end_wrongly(), xr::sys::Result::ERROR_VALIDATION_FAILURE);
+}
+
+#[test]
+fn a_window_shows_what_either_eye_sees() {
+    let screen = Xvfb::start([1024, 600]);
+    let display = screen.display().to_owned();
+    let compositor = Compositor::Window { display };
+    let service = Service::start(Settings { compositor, hertz: Some(60), ..Settings::default() });
+    let mut command = service.reexec("shows_frames_until_the_instance_is_lost");
+    let mut client = command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
+    let window = screen.window("Monado");
+    let (_, [width, height]) = window.frame();
+    screen.screenshot_when(|_| {
+        let shown = window.picture();
+        let [left, right] = [1, 3].map(|quarter| shown.pixel(width * quarter / 4, height / 2));
+        left == [255, 0, 0] && right == [0, 255, 0]
+    });
+    drop(service);
+    assert!(client.wait().unwrap().success());
 }

@@ -10,3 +10,4 @@ pub mod program;
 pub mod random;
 pub mod remote;
 pub mod stage;
+pub mod xvfb;

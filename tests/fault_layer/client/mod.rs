@@ -1,8 +1,10 @@
-//! A small program for a headset, with a session that shows images nobody has drawn into: enough to meet every fault.
+//! A small program for a headset, which shows red to the left eye and green to the right: enough to meet every fault.
 //! Part of tests, not of the layer; it is here because OpenXR's own calls are unsafe.
 #![allow(dead_code, reason = "each test uses a part")]
-use ash::vk::{self, Handle as _};
+mod vulkan;
+
 use openxr as xr;
+use vulkan::Vulkan;
 use xr::sys;
 
 pub struct Client {
@@ -11,11 +13,12 @@ pub struct Client {
     waiter: xr::FrameWaiter,
     stream: xr::FrameStream<xr::Vulkan>,
     swapchain: xr::Swapchain<xr::Vulkan>,
+    images: Vec<u64>,
     local: xr::Space,
     floor: xr::Space,
     head: xr::Space,
     /// Last, so that it outlives the session.
-    _vulkan: Vulkan,
+    vulkan: Vulkan,
 }
 
 /// What happened to a frame.
@@ -45,13 +48,13 @@ impl Client {
         let system = instance.system(xr::FormFactor::HEAD_MOUNTED_DISPLAY)?;
         instance.graphics_requirements::<xr::Vulkan>(system)?;
         let vulkan = Vulkan::new(&instance, system)?;
-        // SAFETY: the handles are valid, and stay so: `_vulkan` goes last.
+        // SAFETY: the handles are valid, and stay so: `vulkan` goes last.
         let (session, waiter, stream) =
             unsafe { instance.create_session::<xr::Vulkan>(system, &vulkan.binding) }?;
         let swapchain = session.create_swapchain(&xr::SwapchainCreateInfo {
             create_flags: xr::SwapchainCreateFlags::EMPTY,
-            usage_flags: xr::SwapchainUsageFlags::COLOR_ATTACHMENT,
-            format: vk::Format::R8G8B8A8_SRGB.as_raw() as u32,
+            usage_flags: xr::SwapchainUsageFlags::COLOR_ATTACHMENT | xr::SwapchainUsageFlags::TRANSFER_DST,
+            format: vulkan::FORMAT,
             sample_count: 1,
             width: SIZE,
             height: SIZE,
@@ -59,11 +62,12 @@ impl Client {
             array_size: 2,
             mip_count: 1,
         })?;
+        let images = swapchain.enumerate_images()?;
         let space = |ty| session.create_reference_space(ty, xr::Posef::IDENTITY);
         let local = space(xr::ReferenceSpaceType::LOCAL)?;
         let floor = space(xr::ReferenceSpaceType::STAGE)?;
         let head = space(xr::ReferenceSpaceType::VIEW)?;
-        Ok(Self { instance, session, waiter, stream, swapchain, local, floor, head, _vulkan: vulkan })
+        Ok(Self { instance, session, waiter, stream, swapchain, local, floor, head, images, vulkan })
     }
 
     /// Polls until nothing is left to tell, beginning and ending the session as it is told to; events by name.
@@ -116,7 +120,7 @@ impl Client {
             return Ok((Frame::Empty, time));
         }
         let (_, views) = self.session.locate_views(VIEWS, time, &self.local)?;
-        self.swapchain.acquire_image()?;
+        let image = self.swapchain.acquire_image()?;
         if !self.wait_image()? {
             self.stream.end(time, opaque, &[])?;
             // An image that was acquired has to be waited for and released.
@@ -124,6 +128,7 @@ impl Client {
             self.release_image()?;
             return Ok((Frame::Late, time));
         }
+        self.vulkan.paint(self.images[image as usize]);
         self.release_image()?;
         let eye = |index: usize| {
             let whole = xr::Rect2Di {
@@ -183,61 +188,5 @@ impl Client {
             (self.instance.fp().release_swapchain_image)(self.swapchain.as_raw(), std::ptr::null())
         };
         if result == sys::Result::SUCCESS { Ok(()) } else { Err(result) }
-    }
-}
-
-/// Vulkan as the runtime wants it: the least that a session can be made with.
-struct Vulkan {
-    _entry: ash::Entry,
-    instance: ash::Instance,
-    device: ash::Device,
-    binding: xr::vulkan::SessionCreateInfo,
-}
-
-impl Vulkan {
-    fn new(xr_instance: &xr::Instance, system: xr::SystemId) -> xr::Result<Self> {
-        let application = vk::ApplicationInfo::default().api_version(vk::API_VERSION_1_1);
-        let instance_info = vk::InstanceCreateInfo::default().application_info(&application);
-        // SAFETY: Vulkan's loader conforms; structures live for the calls they are passed to; handles are used with the
-        // instance they come from. A function pointer has the same type in both crates, by another name.
-        unsafe {
-            let entry = ash::Entry::load().expect("no Vulkan loader");
-            let get = std::mem::transmute::<
-                vk::PFN_vkGetInstanceProcAddr,
-                sys::platform::VkGetInstanceProcAddr,
-            >(entry.static_fn().get_instance_proc_addr);
-            let made = xr_instance.create_vulkan_instance(system, get, (&raw const instance_info).cast())?;
-            let raw = made.expect("no Vulkan instance");
-            let instance = ash::Instance::load(entry.static_fn(), vk::Instance::from_raw(raw as u64));
-            let physical_device = xr_instance.vulkan_graphics_device(system, raw)?;
-            let queue = [vk::DeviceQueueCreateInfo::default().queue_priorities(&[1.0])];
-            let device_info = vk::DeviceCreateInfo::default().queue_create_infos(&queue);
-            let made = xr_instance.create_vulkan_device(
-                system,
-                get,
-                physical_device,
-                (&raw const device_info).cast(),
-            )?;
-            let device = made.expect("no Vulkan device");
-            let binding = xr::vulkan::SessionCreateInfo {
-                instance: raw,
-                physical_device,
-                device,
-                queue_family_index: 0,
-                queue_index: 0,
-            };
-            let device = ash::Device::load(instance.fp_v1_0(), vk::Device::from_raw(device as u64));
-            Ok(Self { _entry: entry, instance, device, binding })
-        }
-    }
-}
-
-impl Drop for Vulkan {
-    fn drop(&mut self) {
-        // SAFETY: the session, which used them, is gone.
-        unsafe {
-            self.device.destroy_device(None);
-            self.instance.destroy_instance(None);
-        }
     }
 }
