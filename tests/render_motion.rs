@@ -311,7 +311,13 @@ fn motion_has_to_be_prepared() {
     let mut stage = Stage::new(&scene);
     let said = "no motion vectors without a frame recorded since Renderer::prepare_motion";
     let recording = stage.commands[0].begin().unwrap();
-    assert_eq!(stage.renderer.record_motion(recording, &stage.motion).unwrap_err().to_string(), said);
+    assert_eq!(
+        stage.renderer.record_motion(recording, &stage.motion, Turn::default()).unwrap_err().to_string(),
+        said
+    );
     stage.renderer.prepare_motion(&stage.device, &stage.motion).unwrap();
-    assert_eq!(stage.renderer.record_motion(recording, &stage.motion).unwrap_err().to_string(), said);
+    assert_eq!(
+        stage.renderer.record_motion(recording, &stage.motion, Turn::default()).unwrap_err().to_string(),
+        said
+    );
 }

@@ -5,7 +5,7 @@
 mod client;
 mod support;
 
-use client::{Client, Frame, instance};
+use client::{Client, Frame, extensions, instance, instance_with};
 use openxr::SessionState;
 use openxr::sys::Result as Xr;
 use support::faults::{self, Calls};
@@ -248,4 +248,26 @@ fn a_fault_of_no_known_name_ends_the_program() {
         let said = run(&mut client);
         assert!(said.status != Some(0) && said.err.contains(faults), "{said:?}");
     }
+}
+
+#[test]
+fn an_extension_is_hidden_and_cannot_be_had() {
+    let service = Service::start(Settings::default());
+    let mut client = service.reexec("hidden_extension");
+    faults::hidden(&service, &mut client, &["XR_KHR_composition_layer_depth", "XR_MND_headless"]);
+    let said = run(&mut client);
+    assert!(said.status == Some(0) && said.out.contains("1 passed"), "{said:?}");
+}
+
+#[test]
+#[ignore = "run by the test above"]
+fn hidden_extension() {
+    let mut known = extensions();
+    assert!(!known.khr_composition_layer_depth && !known.mnd_headless, "{known:?}");
+    assert!(known.khr_vulkan_enable2 && known.ext_hand_tracking, "{known:?}");
+    known.khr_composition_layer_depth = true;
+    assert_eq!(instance_with(&known).err(), Some(Xr::ERROR_EXTENSION_NOT_PRESENT));
+    let mut client = started();
+    frames(&mut client, 2);
+    ended(client);
 }

@@ -10,4 +10,5 @@ mod events;
 mod instance;
 mod next;
 mod plan;
+mod runtime;
 mod state;

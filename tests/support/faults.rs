@@ -40,6 +40,23 @@ pub fn between(service: &Service, command: &mut Command, faults: &str) -> Record
     record
 }
 
+/// Shows `command` Monado without `extensions`.
+pub fn hidden(service: &Service, command: &mut Command, extensions: &[&str]) {
+    let read = |file: &Path| fs::read_to_string(file).unwrap();
+    let monado = Path::new(&std::env::var_os("XR_RUNTIME_JSON").expect("run tests with ./x test")).to_owned();
+    let monado: serde_json::Value = serde_json::from_str(&read(&monado)).unwrap();
+    let manifest =
+        serde_json::json!({"file_format_version": "1.0.0", "runtime": {"library_path": library()}});
+    let file = service.folder().join("runtime.json");
+    fs::write(&file, manifest.to_string()).unwrap();
+    command
+        // `vk-run` would name Monado's manifest.
+        .env_remove("SWELL_XR")
+        .env("XR_RUNTIME_JSON", file)
+        .env("SWELL_RUNTIME", monado["runtime"]["library_path"].as_str().unwrap())
+        .env("SWELL_HIDDEN", extensions.join(","));
+}
+
 /// Beside the tests' programs, where `./x test` builds it.
 fn library() -> PathBuf {
     let file = Path::new(SWELL).with_file_name("examples").join("libswell_fault_layer.so");

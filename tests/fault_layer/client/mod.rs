@@ -34,13 +34,25 @@ pub enum Frame {
 pub const SIZE: u32 = 64;
 const VIEWS: xr::ViewConfigurationType = xr::ViewConfigurationType::PRIMARY_STEREO;
 
-pub fn instance() -> xr::Result<xr::Instance> {
+fn entry() -> xr::Entry {
     // SAFETY: the loader of the sysroot or the machine conforms.
-    let entry = unsafe { xr::Entry::load(&()) }.expect("no OpenXR loader");
+    unsafe { xr::Entry::load(&()) }.expect("no OpenXR loader")
+}
+
+/// What the runtime offers.
+pub fn extensions() -> xr::ExtensionSet {
+    entry().enumerate_extensions().expect("no runtime")
+}
+
+pub fn instance() -> xr::Result<xr::Instance> {
     let mut extensions = xr::ExtensionSet::default();
     extensions.khr_vulkan_enable2 = true;
+    instance_with(&extensions)
+}
+
+pub fn instance_with(extensions: &xr::ExtensionSet) -> xr::Result<xr::Instance> {
     let application = xr::ApplicationInfo { application_name: "swell tests", ..Default::default() };
-    entry.create_instance(&application, &extensions, &[], &())
+    entry().create_instance(&application, extensions, &[], &())
 }
 
 impl Client {
