@@ -109,7 +109,7 @@ fn raft() {
         (-4.0, -25.0, [0.02, 0.40, 0.10]),
     ];
     for (x, z, color) in places {
-        solids.extend(Buoy { pose: afloat(&maps, x, z, 0.4), diameter: 0.9, color }.solids());
+        solids.extend(Buoy { pose: afloat(&maps, x, z, 0.4), diameter: 0.9, mast: 1.8, color }.solids());
     }
     for (side, x) in [(Hand::Left, -0.2), (Hand::Right, 0.2)] {
         let grip =
