@@ -5,9 +5,10 @@ use std::io::{BufWriter, stdout};
 use std::path::PathBuf;
 use swell::commands::query::{Coordinates, Point};
 use swell::commands::{
-    self, BakeOptions, Clock, CommandError, Frames, RenderOptions, RunOptions, bake::Format,
+    self, BakeOptions, Clock, CommandError, Frames, RenderOptions, RunOptions, XrOptions, bake::Format,
 };
 use swell::draw::Look;
+use swell::host::Mirror;
 use swell::lod::Quality;
 use swell::scene::Scene;
 
@@ -21,7 +22,7 @@ pub struct Arguments {
 
 #[derive(Subcommand)]
 enum Command {
-    /// Show a scene in a window, or render a clip where there is no display.
+    /// Show a scene in a window or in a headset, or render a clip where there is neither.
     Run(Run),
     /// Draw a scene into pictures.
     Render(Render),
@@ -73,7 +74,22 @@ struct Run {
     /// Pixels of the window.
     #[arg(long, default_value = "1280x720", value_parser = picture_size, value_name = "WxH")]
     size: [u32; 2],
-    /// Folder for the clip that is rendered where there is no display.
+    /// Show it in a headset, through OpenXR.
+    #[arg(long)]
+    xr: bool,
+    /// Wait for the OpenXR runtime and its headset, at the start and whenever they go; implies --xr.
+    #[arg(long)]
+    xr_wait: bool,
+    /// With --xr, what a window beside the headset shows: left, right, both or none.
+    #[arg(long, default_value = "left", value_name = "EYE")]
+    mirror: Mirror,
+    /// With --xr, factor on the size that the headset recommends for a view: 0.1 to 4.
+    #[arg(long, default_value_t = 1.0, value_parser = xr_scale, value_name = "FACTOR")]
+    xr_scale: f32,
+    /// With --xr, the refresh rate to ask for, hertz; the highest if not given.
+    #[arg(long, value_parser = hertz, value_name = "HZ")]
+    refresh_rate: Option<f32>,
+    /// Folder for the clip that is rendered where there is neither display nor headset.
     #[arg(long, default_value = "out", value_name = "DIR")]
     out: PathBuf,
     /// Part of the name of the Vulkan device to use.
@@ -200,6 +216,12 @@ impl Run {
             screenshot: self.screenshot,
             frame_log: self.frame_log,
             size: self.size,
+            xr: (self.xr || self.xr_wait).then_some(XrOptions {
+                wait: self.xr_wait,
+                mirror: self.mirror,
+                scale: self.xr_scale,
+                refresh_rate: self.refresh_rate,
+            }),
             out: self.out,
             device: self.device,
             validate: self.validate,
@@ -300,6 +322,16 @@ fn point(text: &str) -> Result<[f64; 3], String> {
     numbers
         .and_then(|numbers| numbers.try_into().ok())
         .ok_or_else(|| "wanted X,Y,Z: three numbers of metres, -1e9 to 1e9".to_owned())
+}
+
+fn xr_scale(text: &str) -> Result<f32, String> {
+    let number = text.parse().ok().filter(|scale| (0.1..=4.0).contains(scale));
+    number.ok_or_else(|| "wanted a factor, 0.1 to 4".to_owned())
+}
+
+fn hertz(text: &str) -> Result<f32, String> {
+    let number = text.parse().ok().filter(|rate| (1.0..=1000.0).contains(rate));
+    number.ok_or_else(|| "wanted a refresh rate, 1 to 1000 hertz".to_owned())
 }
 
 /// Starting threads beyond all sense takes a system's memory before it is refused.

@@ -3,9 +3,12 @@
 use super::{Clock, CommandError, Frames, RenderOptions, render};
 use crate::draw::Look;
 use crate::gpu::Validation;
-use crate::host::{HostError, WindowHost, WindowSettings};
+use crate::host::{
+    Companion, CompanionSettings, HeadsetSettings, HostError, Mirror, WindowHost, WindowSettings, headset,
+};
 use crate::output::{OutputError, atomic::write_whole};
 use crate::scene::Scene;
+use crate::xr::{self, vendor::FoveationLevel};
 use std::fs::File;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -23,6 +26,8 @@ pub struct RunOptions {
     pub frame_log: Option<PathBuf>,
     /// Pixels of the window at first.
     pub size: [u32; 2],
+    /// Shown in a headset.
+    pub xr: Option<XrOptions>,
     /// A folder for the clip that is rendered where there is neither a display nor a headset.
     pub out: PathBuf,
     /// Part of the Vulkan device's name.
@@ -35,24 +40,54 @@ pub struct RunOptions {
     pub cache: Option<PathBuf>,
 }
 
+/// How a headset is used.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct XrOptions {
+    /// Wait for a runtime and a headset.
+    pub wait: bool,
+    /// What a window beside it shows.
+    pub mirror: Mirror,
+    /// Factor on the recommended size of a view.
+    pub scale: f32,
+    /// Refresh rate to ask for, hertz.
+    pub refresh_rate: Option<f32>,
+}
+
+impl Default for XrOptions {
+    fn default() -> Self {
+        Self { wait: false, mirror: Mirror::None, scale: 1.0, refresh_rate: None }
+    }
+}
+
 /// Frames of a clip, and how many a second.
 const CLIP: (u64, f64) = (90, 30.0);
 /// Ctrl-C again, while the end is on its way: as the shell tells of a program that it ended.
 const INTERRUPTED: i32 = 130;
 
-/// Shows the scene in a window until somebody wants the end. Where no window can be opened it renders a clip instead, and
-/// then prints the clip's folder.
+/// Shows the scene in a headset where that was asked for, or else in a window, until somebody wants the end. Where no window
+/// can be opened it goes to a headset if there is one, and else renders a clip and prints the clip's folder.
 ///
 /// # Errors
-/// No usable device, the device or the display was lost, fewer frames than were asked for, or a validation message where
-/// those count.
+/// No usable device, the device, the display or the headset's runtime was lost, fewer frames than were asked for, or a
+/// validation message where those count.
 pub fn run(scene: &Scene, options: &RunOptions) -> Result<(), CommandError> {
     let stop = listen()?;
+    if let Some(xr) = options.xr {
+        return in_headset(scene, options, xr, &stop);
+    }
     match window(scene, options, &stop) {
-        Err(CommandError::Host(HostError::NoDisplay(reason))) => {
-            eprintln!("no display ({reason}) and no OpenXR runtime: rendering a clip instead");
-            clip(scene, options)
-        }
+        Err(CommandError::Host(HostError::NoDisplay(reason))) => match xr::about() {
+            Ok(found) if found.headset.is_ok() => {
+                eprintln!("no display ({reason}): showing it in the headset of {}", found.runtime);
+                in_headset(scene, options, XrOptions::default(), &stop)
+            }
+            _ => {
+                eprintln!(
+                    "no display ({reason}) and no OpenXR runtime with a headset: rendering a clip instead"
+                );
+                clip(scene, options)
+            }
+        },
         other => other,
     }
 }
@@ -90,6 +125,52 @@ fn window(scene: &Scene, options: &RunOptions, stop: &Arc<AtomicBool>) -> Result
     }
     match options.frames {
         Some(wanted) if !ending.complete => Err(CommandError::Early { drawn: ending.frames, wanted }),
+        _ => Ok(()),
+    }
+}
+
+fn in_headset(
+    scene: &Scene,
+    options: &RunOptions,
+    xr: XrOptions,
+    stop: &Arc<AtomicBool>,
+) -> Result<(), CommandError> {
+    if let Some(device) = &options.device {
+        let reason = "the headset's runtime says which Vulkan device draws; leave --device out with --xr";
+        return Err(CommandError::Usage(format!("--device {device}: {reason}")));
+    }
+    let mut companion = Companion::new(CompanionSettings {
+        mirror: xr.mirror,
+        size: options.size,
+        screenshot: options.screenshot.clone(),
+        frame_log: options.frame_log.clone(),
+        stop: Arc::clone(stop),
+    })?;
+    let settings = HeadsetSettings {
+        look: Look::Water,
+        validation: if options.validate { Validation::On } else { Validation::Off },
+        threads: options.threads,
+        cache: options.cache.clone(),
+        wait: xr.wait,
+        frames: options.frames,
+        scale: xr.scale,
+        refresh_rate: xr.refresh_rate,
+        foveation: FoveationLevel::default(),
+    };
+    let shown = headset(scene, &settings, &mut companion);
+    // The files are ended whatever happened.
+    let finished = companion.finish();
+    let report = shown?;
+    finished?;
+    eprintln!(
+        "{} frames shown, {} left empty; {} steps of the sea made anew; {} sessions begun anew",
+        report.shown, report.skipped, report.missed, report.recovered
+    );
+    if !report.said.is_empty() {
+        return Err(CommandError::Validation { count: report.said.len() });
+    }
+    match options.frames {
+        Some(wanted) if report.shown < wanted => Err(CommandError::Early { drawn: report.shown, wanted }),
         _ => Ok(()),
     }
 }

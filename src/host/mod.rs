@@ -1,6 +1,7 @@
 //! Whoever decides when a frame is drawn, from where and into what.
 
 mod afloat;
+mod companion;
 mod cpu;
 mod frame_log;
 mod headless;
@@ -12,6 +13,7 @@ pub mod view;
 mod window;
 
 pub use afloat::marker;
+pub use companion::{Companion, CompanionSettings};
 pub use cpu::cpu_time;
 pub use frame_log::{FrameLog, FrameRecord};
 pub use headless::{Finished, Headless, HeadlessSettings};

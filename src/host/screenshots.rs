@@ -1,27 +1,33 @@
 //! Pictures kept while the program runs, written by threads of their own.
 
 use super::HostError;
-use crate::gpu::{Buffer, Commands, Device, MemoryLocation, Target};
+use crate::gpu::{Buffer, Commands, Device, Image, MemoryLocation};
 use crate::output::{OutputError, atomic::write_whole, png};
 use ash::vk;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::thread::{self, JoinHandle};
 
-/// The picture in `target`, an image of its own whose drawing has been submitted: sRGB bytes (RGBA), view after view. Waits
-/// for the device, so that a key is worth it and a frame is not.
+/// The picture in `image`, in `TRANSFER_SRC_OPTIMAL`, whose drawing has been submitted: sRGB bytes (RGBA), layer after layer.
+/// Waits for the device, so that a key is worth it and a frame is not.
 ///
 /// # Errors
 /// Out of memory, or the device was lost.
-pub fn read_back(device: &Arc<Device>, target: &Target) -> Result<Vec<u8>, HostError> {
+pub fn read_back(device: &Arc<Device>, image: &Image) -> Result<Vec<u8>, HostError> {
     let usage = vk::BufferUsageFlags::TRANSFER_DST;
-    let buffer = Buffer::new(device, "screenshot", target.bytes(), usage, MemoryLocation::GpuToCpu)?;
+    let [width, height] = image.info.extent;
+    let size = 4 * u64::from(width) * u64::from(height) * u64::from(image.info.layers);
+    let buffer = Buffer::new(device, "screenshot", size, usage, MemoryLocation::GpuToCpu)?;
     let commands = Commands::new(device, "screenshot")?;
-    target.copy_to(commands.begin()?, &buffer);
+    commands.begin()?.copy_from_image(image, &buffer);
     commands.submit()?;
     commands.wait()?;
-    let length = usize::try_from(target.bytes()).unwrap_or(usize::MAX);
-    Ok(buffer.bytes().get(..length).unwrap_or_default().to_vec())
+    let length = usize::try_from(size).unwrap_or(usize::MAX);
+    let mut pixels = buffer.bytes().get(..length).unwrap_or_default().to_vec();
+    if image.info.format == vk::Format::B8G8R8A8_SRGB {
+        pixels.chunks_exact_mut(4).for_each(|pixel| pixel.swap(0, 2));
+    }
+    Ok(pixels)
 }
 
 /// Pictures on their way to files.

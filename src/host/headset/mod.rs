@@ -91,6 +91,7 @@ pub fn headset(
     let world = World { painter: started.painter, runtime };
     let mut show = Show { scene, settings, sky, sea, pace: Pace::default(), ride: Ride::new(scene)?, report };
     let ended = show.go_on(world, started.opened, guest);
+    // After an error too: what a guest made on the device must not outlive it.
     guest.closing();
     show.report.missed = show.pace.missed();
     ended.map(|()| show.report)
@@ -166,6 +167,9 @@ impl Show<'_> {
         let vulkan = world.painter.device().instance().heard();
         let openxr = world.runtime.heard();
         world.painter.wait_all()?;
+        if let (Some(picture), true) = (stage.as_ref().and_then(Stage::picture), self.report.shown > 0) {
+            guest.last(picture)?;
+        }
         guest.closing();
         drop((stage, world));
         self.report.said = [vulkan.all(), openxr.all()].concat();
@@ -276,6 +280,7 @@ impl Show<'_> {
             vignette: ridden.vignette,
             counts,
             uploaded: world.painter.uploaded(),
+            sea: self.sea.last_step(),
             picture: stage.picture(),
         };
         let state = stage.session.lifecycle().name();
@@ -317,8 +322,11 @@ fn open(
 ) -> Result<(Arc<Device>, Stage), HostError> {
     let instance = Instance::new(settings.validation, guest.instance_extensions(), &**runtime)?;
     let physical = crate::gpu::Opener::choose(&**runtime, &instance, None)?;
+    // Where the runtime's device can show nothing in windows, the guest hears of it when it tries.
+    let wanted: Vec<_> =
+        guest.device_extensions().iter().copied().filter(|extension| physical.has(extension)).collect();
     let needs = DeviceNeeds {
-        extensions: guest.device_extensions(),
+        extensions: &wanted,
         foveation: settings.foveation != FoveationLevel::Off,
         cache: settings.cache.as_deref(),
         opener: &**runtime,

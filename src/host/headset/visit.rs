@@ -6,6 +6,7 @@ use crate::host::HostError;
 use crate::xr::{HANDS, Hand, VIEWS};
 use std::ffi::CStr;
 use std::sync::Arc;
+use std::time::Duration;
 
 /// A frame that was just ended.
 pub struct HeadsetFrame<'a> {
@@ -31,6 +32,8 @@ pub struct Drawn<'a> {
     pub counts: DrawCounts,
     /// Bytes uploaded for it.
     pub uploaded: u64,
+    /// What the sea's step took, on other threads.
+    pub sea: Duration,
     /// A copy of both views, one a layer, in `TRANSFER_SRC_OPTIMAL`, for guests who [look](Guest::looks).
     pub picture: Option<&'a Image>,
 }
@@ -60,6 +63,14 @@ pub trait Guest {
     /// # Errors
     /// What the guest needs of it cannot be had.
     fn opened(&mut self, _device: &Arc<Device>) -> Result<(), HostError> {
+        Ok(())
+    }
+
+    /// The run ends, and this is the last frame's picture, as in [`Drawn::picture`].
+    ///
+    /// # Errors
+    /// It cannot be kept.
+    fn last(&mut self, _picture: &Image) -> Result<(), HostError> {
         Ok(())
     }
 

@@ -95,6 +95,11 @@ impl DesktopWindow {
         Ok(())
     }
 
+    /// Shows nothing any more: before the device goes.
+    pub fn detach(&mut self) {
+        self.presenter = None;
+    }
+
     /// Takes in what has happened. Where nothing can be seen and `idle`, it waits a little for something to happen.
     pub fn pump(&mut self, idle: bool) {
         self.state.look_whether_minimised();

@@ -249,10 +249,10 @@ impl WindowHost {
         if self.drawn == 0 {
             return Ok(());
         }
-        let target = &self.opened.target;
-        let vk::Extent2D { width, height } = target.info.extent;
-        let pixels = read_back(self.painter.device(), target)?;
-        self.screenshots.write(path, [width, height], target.info.views, pixels);
+        if let Some(picture) = self.opened.target.finished() {
+            let pixels = read_back(self.painter.device(), picture)?;
+            self.screenshots.write(path, picture.info.extent, picture.info.layers, pixels);
+        }
         Ok(())
     }
 
