@@ -1,11 +1,10 @@
 //! The calls this layer stands before. Each asks whether a fault strikes, calls down if not, and writes a line.
-use crate::events::{self, Event};
+use crate::describe;
+use crate::events::Event;
 use crate::next::Next;
 use crate::plan::Fault;
 use crate::state::{State, with};
 use openxr::sys::{self, Result as Xr};
-use std::ffi::{CStr, c_char};
-use std::ptr;
 
 /// `error` returned, or what `call` makes of the functions below; written down as `line`.
 fn answer(error: Option<Xr>, line: &str, call: impl FnOnce(Next) -> Xr) -> Xr {
@@ -63,7 +62,7 @@ pub unsafe extern "system" fn poll_event(instance: sys::Instance, buffer: *mut s
     let result = own.unwrap_or_else(|| unsafe { (with(|layer| layer.next()).poll_event)(instance, buffer) });
     match result {
         // SAFETY: on success the buffer holds an event.
-        Xr::SUCCESS => with(|layer| layer.say(&unsafe { events::describe(buffer) })),
+        Xr::SUCCESS => with(|layer| layer.say(&unsafe { describe::event(buffer) })),
         Xr::EVENT_UNAVAILABLE => with(State::all_events_read),
         error => with(|layer| layer.say_call("poll_event", error)),
     }
@@ -212,7 +211,7 @@ pub unsafe extern "system" fn end_frame(session: sys::Session, info: *const sys:
         layer.fails(Fault::EndFails, call, Xr::ERROR_RUNTIME_FAILURE)
     });
     // SAFETY: the caller's structure, and what it points to.
-    let line = format!("end_frame {call} {}", unsafe { submitted(&*info) });
+    let line = format!("end_frame {call} {}", unsafe { describe::frame(&*info) });
     // SAFETY: as above.
     let result = answer(error, &line, |next| unsafe { (next.end_frame)(session, info) });
     with(|layer| {
@@ -229,34 +228,6 @@ pub unsafe extern "system" fn end_frame(session: sys::Session, info: *const sys:
         }
     });
     result
-}
-
-/// What a frame shows: how many layers, of how many views the projection is, whether every one of them has depth.
-unsafe fn submitted(info: &sys::FrameEndInfo) -> String {
-    let (mut views, mut with_depth) = (0, 0);
-    for layer in 0..info.layer_count as usize {
-        // SAFETY: the caller's array of pointers to layers; the type says what a layer is, and its views are an array
-        // with a chain of structures at each, a type in front of every one.
-        unsafe {
-            let layer = *info.layers.add(layer);
-            if (*layer).ty != sys::StructureType::COMPOSITION_LAYER_PROJECTION {
-                continue;
-            }
-            let projection = &*layer.cast::<sys::CompositionLayerProjection>();
-            for view in 0..projection.view_count as usize {
-                views += 1;
-                let mut more = (*projection.views.add(view)).next.cast::<sys::BaseInStructure>();
-                while !more.is_null() {
-                    with_depth +=
-                        u32::from((*more).ty == sys::StructureType::COMPOSITION_LAYER_DEPTH_INFO_KHR);
-                    more = (*more).next;
-                }
-            }
-        }
-    }
-    let depth = if views > 0 && with_depth == views { "yes" } else { "no" };
-    let time = info.display_time.as_nanos();
-    format!("layers={} views={views} depth={depth} time={time}", info.layer_count)
 }
 
 pub unsafe extern "system" fn locate_views(
@@ -287,7 +258,7 @@ pub unsafe extern "system" fn apply_haptic_feedback(
     let (next, instance) = with(|layer| (layer.next(), layer.instance()));
     // SAFETY: the caller's structures; the type of the second says what it is.
     let line = unsafe {
-        let whose = path(next, instance, (*info).subaction_path);
+        let whose = describe::path(next, instance, (*info).subaction_path);
         let mut line = format!("apply_haptics {whose}");
         if (*haptic).ty == sys::StructureType::HAPTIC_VIBRATION {
             let vibration = &*haptic.cast::<sys::HapticVibration>();
@@ -297,18 +268,4 @@ pub unsafe extern "system" fn apply_haptic_feedback(
     };
     // SAFETY: as above.
     on_session(&line, |next| unsafe { (next.apply_haptic_feedback)(session, info, haptic) })
-}
-
-/// A path's text; `-` for none.
-fn path(next: Next, instance: sys::Instance, path: sys::Path) -> String {
-    let mut text = [0 as c_char; 256];
-    let mut length = 0;
-    // SAFETY: the instance lives, and the buffer has the length that is passed.
-    let result =
-        unsafe { (next.path_to_string)(instance, path, 256, ptr::from_mut(&mut length), text.as_mut_ptr()) };
-    if path == sys::Path::NULL || result != Xr::SUCCESS {
-        return "-".to_owned();
-    }
-    // SAFETY: on success the buffer holds a C string.
-    unsafe { CStr::from_ptr(text.as_ptr()) }.to_string_lossy().into_owned()
 }

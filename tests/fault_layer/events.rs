@@ -94,19 +94,3 @@ unsafe fn write<E>(buffer: *mut sys::EventDataBuffer, event: E) {
     // SAFETY: the caller's promise.
     unsafe { buffer.cast::<E>().write(event) }
 }
-
-/// How the log calls an event: `state FOCUSED`, or `event` and its type.
-///
-/// # Safety
-///
-/// `buffer` holds an event.
-pub unsafe fn describe(buffer: *const sys::EventDataBuffer) -> String {
-    // SAFETY: the type says what else is there.
-    unsafe {
-        let ty = (*buffer).ty;
-        if ty == sys::StructureType::EVENT_DATA_SESSION_STATE_CHANGED {
-            return format!("state {:?}", (*buffer.cast::<sys::EventDataSessionStateChanged>()).state);
-        }
-        format!("event {ty:?}").replace("EVENT_DATA_", "")
-    }
-}

@@ -6,6 +6,7 @@
 //! once however often a program starts anew.
 #![allow(clippy::expect_used, reason = "a part of tests, which may panic")]
 mod calls;
+mod describe;
 mod events;
 mod instance;
 mod next;
