@@ -13,6 +13,7 @@ use super::surface::{Shown, Surface};
 use super::swapchain::{Acquired, NotAcquired, Pace, Swapchain};
 use ash::{khr, vk};
 use std::ffi::CStr;
+use std::rc::Rc;
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -74,7 +75,7 @@ pub struct Presenter {
     /// The window's size that the swapchain was made for.
     size: [u32; 2],
     pace: Pace,
-    surface: Arc<Surface>,
+    surface: Rc<Surface>,
     window: Arc<dyn Shown>,
     device: Arc<Device>,
 }
@@ -91,7 +92,7 @@ impl Presenter {
     /// # Errors
     /// The window is gone, or the device cannot show anything on it.
     pub fn new(device: &Arc<Device>, window: &Arc<dyn Shown>, pace: Pace) -> Result<Self, GpuError> {
-        let surface = Arc::new(Surface::new(device, window)?);
+        let surface = Rc::new(Surface::new(device, window)?);
         let commands = (0..FRAMES_IN_FLIGHT)
             .map(|i| Commands::new(device, &format!("present {i}")))
             .collect::<Result<_, GpuError>>()?;
@@ -189,7 +190,7 @@ impl Presenter {
     /// A new surface for a lost one.
     fn renew(&mut self) -> Result<(), GpuError> {
         self.drop_images()?;
-        self.surface = Arc::new(Surface::new(&self.device, &self.window)?);
+        self.surface = Rc::new(Surface::new(&self.device, &self.window)?);
         Ok(())
     }
 
@@ -273,7 +274,7 @@ fn record(recorder: Recorder<'_>, window: vk::Image, extent: [u32; 2], picture: 
     let views = layers.range();
     let count = views.len() as u32;
     let areas = (0..count).map(|index| fit(picture.extent, extent, index, count));
-    let covered: u64 = areas.clone().map(|area| pixels(area)).sum();
+    let covered: u64 = areas.clone().map(pixels).sum();
     barrier(window, empty, filling);
     if covered < u64::from(extent[0]) * u64::from(extent[1]) {
         let black = vk::ClearColorValue { float32: [0.0, 0.0, 0.0, 1.0] };

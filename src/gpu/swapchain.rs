@@ -7,6 +7,7 @@ use super::device::Device;
 use super::error::{Doing, GpuError};
 use super::surface::Surface;
 use ash::{khr, vk};
+use std::rc::Rc;
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -72,14 +73,14 @@ pub(super) struct Swapchain {
     functions: khr::swapchain::Device,
     device: Arc<Device>,
     /// Outlives the swapchain.
-    _surface: Arc<Surface>,
+    _surface: Rc<Surface>,
 }
 
 impl Swapchain {
     /// Images as large as the window, or as `wanted` (pixels) where the system leaves that to us. None while the window
     /// has no size. `old` is retired.
     pub fn new(
-        surface: &Arc<Surface>,
+        surface: &Rc<Surface>,
         device: &Arc<Device>,
         wanted: [u32; 2],
         pace: Pace,
@@ -125,7 +126,7 @@ impl Swapchain {
             acquired: vk::Fence::null(),
             functions,
             device: Arc::clone(device),
-            _surface: Arc::clone(surface),
+            _surface: Rc::clone(surface),
         };
         // SAFETY: the swapchain is ours.
         swapchain.images =

@@ -62,12 +62,13 @@ impl Screenshots {
     /// # Errors
     /// The first that could not be written.
     pub fn finish(&mut self) -> Result<(), OutputError> {
-        let joined = self.writers.drain(..).map(|writer| match writer.join() {
-            Ok(written) => written,
-            Err(panic) => std::panic::resume_unwind(panic),
-        });
+        let mut all = Ok(());
         // All are waited for, also after an error.
-        joined.fold(Ok(()), |all, one| all.and(one))
+        for writer in self.writers.drain(..) {
+            let written = writer.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic));
+            all = all.and(written);
+        }
+        all
     }
 }
 
