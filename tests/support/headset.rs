@@ -94,7 +94,7 @@ impl Guest for Watcher {
             self.empty.push(frame.state);
             return Ok(());
         };
-        let wanted = self.every > 0 && self.seen.len() % self.every == 0;
+        let wanted = self.every > 0 && self.seen.len().is_multiple_of(self.every);
         let pictures = match (drawn.picture, &self.reader, wanted) {
             (Some(image), Some((device, commands)), true) => {
                 let [width, height] = image.info.extent;
