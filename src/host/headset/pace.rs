@@ -7,6 +7,9 @@ use crate::xr::FrameTime;
 /// A guess that is off by less than this is as good: waves of the steepest seas move a millimetre meanwhile.
 const TOLERANCE: f64 = 250e-6;
 
+/// Frames further apart than this, seconds, are no rhythm.
+const LONGEST: f64 = 0.25;
+
 /// The sea's clock.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Pace {
@@ -50,13 +53,19 @@ impl Pace {
                 seconds
             }
         };
+        let following = seconds + self.step(seconds, time.period);
         self.latest = Some((seconds, time.period));
-        let following = seconds + time.period;
         sea.begin(seconds)?;
         self.ahead = None;
         let maps = sea.next(Some(following))?;
         self.ahead = Some(following);
         Ok((seconds, maps))
+    }
+
+    /// From a frame to the next: as from the one before, so that who misses every other refresh guesses right too.
+    fn step(&self, seconds: f64, period: f64) -> f64 {
+        let before = self.latest.map_or(period, |(latest, _)| seconds - latest);
+        if (period..=LONGEST).contains(&before) { before } else { period }
     }
 
     /// Steps that were thrown away because a frame was seen at another time than expected.
