@@ -190,7 +190,9 @@ impl Presenter {
     /// A new surface for a lost one.
     fn renew(&mut self) -> Result<(), GpuError> {
         self.drop_images()?;
-        self.surface = Rc::new(Surface::new(&self.device, &self.window)?);
+        let surface = Surface::new(&self.device, &self.window)
+            .map_err(|error| GpuError::NoWindow(format!("it was lost, and there is no new one: {error}")))?;
+        self.surface = Rc::new(surface);
         Ok(())
     }
 

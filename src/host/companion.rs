@@ -155,7 +155,7 @@ impl Companion {
 impl Guest for Companion {
     fn goes_on(&mut self) -> bool {
         if let Some(window) = &mut self.window {
-            window.pump(false);
+            let pumped = window.pump(false);
             for key in window.pressed() {
                 match key {
                     Key::End => self.settings.stop.store(true, Ordering::Relaxed),
@@ -163,8 +163,11 @@ impl Guest for Companion {
                     _ => {}
                 }
             }
-            if window.is_closed() {
-                self.end_mirror(&"its window was closed");
+            let closed = window.is_closed();
+            match pumped {
+                Err(error) => self.end_mirror(&error),
+                Ok(()) if closed => self.end_mirror(&"its window was closed"),
+                Ok(()) => {}
             }
         }
         !self.settings.stop.load(Ordering::Relaxed)

@@ -38,6 +38,8 @@ struct State {
     window: Option<Arc<Window>>,
     failed: Option<OsError>,
     input: Input,
+    /// Pixels, as events tell: asking would wait for the display server.
+    size: [u32; 2],
     closed: bool,
     occluded: bool,
     focused: bool,
@@ -59,6 +61,7 @@ impl DesktopWindow {
             window: None,
             failed: None,
             input: Input::default(),
+            size: [0, 0],
             closed: false,
             occluded: false,
             focused: true,
@@ -67,7 +70,7 @@ impl DesktopWindow {
             refresh: None,
         };
         let mut window = Self { presenter: None, state, events };
-        window.pump_for(Duration::ZERO);
+        window.pump_for(Duration::ZERO)?;
         match (&window.state.window, window.state.failed.take()) {
             (Some(_), _) => Ok(window),
             (None, Some(error)) => Err(HostError::NoDisplay(plain(&error.to_string()))),
@@ -101,31 +104,31 @@ impl DesktopWindow {
     }
 
     /// Takes in what has happened. Where nothing can be seen and `idle`, it waits a little for something to happen.
-    pub fn pump(&mut self, idle: bool) {
+    ///
+    /// # Errors
+    /// [`HostError::DisplayGone`].
+    pub fn pump(&mut self, idle: bool) -> Result<(), HostError> {
         self.state.look_whether_minimised();
         let wait = if idle && self.is_hidden() { HIDDEN } else { Duration::ZERO };
-        self.pump_for(wait);
+        self.pump_for(wait)
     }
 
-    fn pump_for(&mut self, wait: Duration) {
-        if let PumpStatus::Exit(_) = self.events.pump_app_events(Some(wait), &mut self.state) {
-            self.state.closed = true;
+    fn pump_for(&mut self, wait: Duration) -> Result<(), HostError> {
+        match self.events.pump_app_events(Some(wait), &mut self.state) {
+            PumpStatus::Continue => Ok(()),
+            // Nobody here ends the event loop.
+            PumpStatus::Exit(_) => Err(HostError::DisplayGone),
         }
     }
 
-    /// Whether somebody closed it, or the display went away.
+    /// Whether somebody closed it.
     pub const fn is_closed(&self) -> bool {
         self.state.closed
     }
 
     /// Whether nothing of it can be seen, as far as the system tells.
     pub fn is_hidden(&self) -> bool {
-        self.state.occluded || self.state.minimised || self.size().contains(&0)
-    }
-
-    /// Pixels, as the window system has them.
-    fn size(&self) -> [u32; 2] {
-        self.state.window.as_ref().map_or([0, 0], |window| window.inner_size().into())
+        self.state.occluded || self.state.minimised || self.state.size.contains(&0)
     }
 
     /// Pixels that pictures are shown on; none while there are none.
@@ -133,7 +136,7 @@ impl DesktopWindow {
     /// # Errors
     /// The window is gone, or the device was lost.
     pub fn extent(&mut self) -> Result<Option<[u32; 2]>, GpuError> {
-        let size = self.size();
+        let size = self.state.size;
         self.presenter.as_mut().map_or(Ok(None), |presenter| presenter.extent(size))
     }
 
@@ -147,7 +150,7 @@ impl DesktopWindow {
         layers: Layers,
         patience: Duration,
     ) -> Result<Outcome, GpuError> {
-        let size = self.size();
+        let size = self.state.size;
         match &mut self.presenter {
             Some(presenter) => presenter.show(picture, layers, size, patience),
             None => Ok(Outcome::NoSize),
@@ -216,7 +219,10 @@ impl ApplicationHandler for State {
     fn resumed(&mut self, events: &ActiveEventLoop) {
         if self.window.is_none() {
             match events.create_window(self.wanted.clone()) {
-                Ok(window) => self.window = Some(Arc::new(window)),
+                Ok(window) => {
+                    self.size = window.inner_size().into();
+                    self.window = Some(Arc::new(window));
+                }
                 Err(error) => self.failed = Some(error),
             }
         }
@@ -228,10 +234,9 @@ impl ApplicationHandler for State {
             WindowEvent::CloseRequested | WindowEvent::Destroyed => self.closed = true,
             WindowEvent::Occluded(occluded) => self.occluded = occluded,
             WindowEvent::Focused(focused) => self.focused = focused,
-            // It may be on another screen now.
-            WindowEvent::Moved(_) | WindowEvent::Resized(_) | WindowEvent::ScaleFactorChanged { .. } => {
-                self.refresh = None;
-            }
+            WindowEvent::Resized(size) => self.size = size.into(),
+            // It may be on another screen now. A new scale comes with a new size.
+            WindowEvent::Moved(_) | WindowEvent::ScaleFactorChanged { .. } => self.refresh = None,
             _ => {}
         }
     }

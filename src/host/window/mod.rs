@@ -142,7 +142,7 @@ impl WindowHost {
         let (mut time, mut before) = (0.0, Duration::ZERO);
         let wanted = self.settings.frames;
         while wanted.is_none_or(|wanted| self.drawn < wanted) {
-            self.opened.window.pump(true);
+            self.opened.window.pump(true)?;
             if self.is_over()? {
                 break;
             }
