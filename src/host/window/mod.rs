@@ -179,7 +179,11 @@ impl WindowHost {
         for key in self.opened.window.pressed() {
             match key {
                 Key::End => over = true,
-                Key::Reset => self.viewer.reset(),
+                Key::Reset => {
+                    // What was dragged before the key does not turn the view after it.
+                    let _before = self.opened.window.input().controls(1);
+                    self.viewer.reset();
+                }
                 Key::Orbit => self.viewer.toggle_orbit(),
                 Key::Screenshot => {
                     let path = self.screenshots.next_name(Path::new(""));
