@@ -126,15 +126,16 @@ fn so_many_frames_a_log_and_the_last_picture() {
     let frames: Vec<serde_json::Value> =
         lines.lines().map(|line| serde_json::from_str(line).unwrap()).collect();
     assert_eq!(frames.len(), 30);
-    let number = |frame: usize, key: &str| frames[frame][key].as_f64().unwrap();
-    for frame in 0..30 {
-        assert_eq!(number(frame, "index"), frame as f64);
-        assert!(frame == 0 || number(frame, "time") > number(frame - 1, "time"), "time goes on");
+    let mut before = -1.0;
+    for (index, frame) in frames.iter().enumerate() {
+        let number = |key: &str| frame[key].as_f64().unwrap();
+        assert_eq!(number("index"), index as f64);
+        assert!(number("time") > before && (index > 0 || number("time") == 0.0), "time goes on from 0");
+        before = number("time");
         for key in ["draws", "patches", "triangles", "uploaded"] {
-            assert!(number(frame, key) > 0.0, "{key} {}", frames[frame]);
+            assert!(number(key) > 0.0, "{key} {frame}");
         }
     }
-    assert_eq!(number(0, "time"), 0.0);
 }
 
 #[test]
@@ -283,6 +284,8 @@ fn without_a_display_a_clip_is_rendered() {
     let clip = |display: Option<&str>| {
         let mut command = swell();
         command.env_remove("DISPLAY").env_remove("WAYLAND_DISPLAY").env_remove("WAYLAND_SOCKET");
+        // Nor a headset.
+        command.env_remove("SWELL_XR").env("XR_RUNTIME_JSON", "/there/is/none.json").env("XR_LOADER_DEBUG", "none");
         command.args([
             "run",
             "--size",
