@@ -285,7 +285,10 @@ fn without_a_display_a_clip_is_rendered() {
         let mut command = swell();
         command.env_remove("DISPLAY").env_remove("WAYLAND_DISPLAY").env_remove("WAYLAND_SOCKET");
         // Nor a headset.
-        command.env_remove("SWELL_XR").env("XR_RUNTIME_JSON", "/there/is/none.json").env("XR_LOADER_DEBUG", "none");
+        command
+            .env_remove("SWELL_XR")
+            .env("XR_RUNTIME_JSON", "/there/is/none.json")
+            .env("XR_LOADER_DEBUG", "none");
         command.args([
             "run",
             "--size",

@@ -1,9 +1,10 @@
-//! `swell info`: the machine's Vulkan devices, and the scene in a few numbers.
+//! `swell info`: the machine's Vulkan devices, its OpenXR runtime and headset, and the scene in a few numbers.
 
 use super::{CommandError, SceneSummary};
 use crate::gpu::{Directly, GpuError, Instance, PhysicalDevice, Validation, version};
 use crate::host::HostError;
 use crate::scene::Scene;
+use crate::xr;
 use serde::Serialize;
 use std::io::{self, Write};
 
@@ -13,7 +14,29 @@ struct Report<'a> {
     devices: Vec<DeviceSummary>,
     /// Why there is no usable device, where there is none.
     problem: Option<String>,
+    openxr: XrSummary,
     scene: &'a SceneSummary,
+}
+
+/// The runtime and its headset; the fields are empty where there is none, and `problem` says why.
+#[derive(Default, Serialize)]
+struct XrSummary {
+    runtime: Option<String>,
+    headset: Option<String>,
+    /// Pixels of a view, as the runtime recommends.
+    recommended: Option<[u32; 2]>,
+    /// Pixels of a view at most.
+    most: Option<[u32; 2]>,
+    problem: Option<String>,
+    /// Extensions that Swell knows of.
+    extensions: Vec<XrExtension>,
+}
+
+#[derive(Serialize)]
+struct XrExtension {
+    name: &'static str,
+    purpose: &'static str,
+    found: bool,
 }
 
 #[derive(Serialize)]
@@ -60,6 +83,7 @@ pub fn info(scene: &Scene, json: bool, mut out: impl Write) -> Result<(), Comman
         swell: env!("CARGO_PKG_VERSION"),
         devices,
         problem: problem.as_ref().map(ToString::to_string),
+        openxr: openxr(),
         scene: &scene,
     };
     let written = if json {
@@ -93,6 +117,44 @@ fn devices() -> Result<Devices, GpuError> {
     Ok((devices, chosen.err()))
 }
 
+/// No runtime is no failure: most machines have none.
+fn openxr() -> XrSummary {
+    let about = match xr::about() {
+        Ok(about) => about,
+        Err(problem) => return XrSummary { problem: Some(problem.to_string()), ..XrSummary::default() },
+    };
+    let extensions = about.extensions.into_iter();
+    let extensions = extensions.map(|(name, purpose, found)| XrExtension { name, purpose, found }).collect();
+    let summary = XrSummary { runtime: Some(about.runtime), extensions, ..XrSummary::default() };
+    match about.headset {
+        Ok((headset, size)) => XrSummary {
+            headset: Some(headset),
+            recommended: Some(size.recommended),
+            most: Some(size.most),
+            ..summary
+        },
+        Err(problem) => XrSummary { problem: Some(problem.to_string()), ..summary },
+    }
+}
+
+fn write_openxr(openxr: &XrSummary, out: &mut impl Write) -> io::Result<()> {
+    if let Some(runtime) = &openxr.runtime {
+        writeln!(out, "OpenXR runtime: {runtime}")?;
+    }
+    if let (Some(headset), Some([width, height]), Some(most)) =
+        (&openxr.headset, openxr.recommended, openxr.most)
+    {
+        writeln!(out, "    headset: {headset}, {width}x{height} an eye, at most {}x{}", most[0], most[1])?;
+    }
+    if let Some(problem) = &openxr.problem {
+        writeln!(out, "OpenXR: {problem}")?;
+    }
+    for XrExtension { name, purpose, found } in &openxr.extensions {
+        writeln!(out, "    {} {name}: {purpose}", if *found { "found  " } else { "missing" })?;
+    }
+    Ok(())
+}
+
 fn write_text(report: &Report<'_>, out: &mut impl Write) -> io::Result<()> {
     writeln!(out, "swell {}", report.swell)?;
     for device in &report.devices {
@@ -109,6 +171,7 @@ fn write_text(report: &Report<'_>, out: &mut impl Write) -> io::Result<()> {
             writeln!(out, "    {} {}", if extension.found { "found  " } else { "missing" }, extension.name)?;
         }
     }
+    write_openxr(&report.openxr, out)?;
     let scene = report.scene;
     writeln!(out, "scene: waves of {:.2} m (significant height)", scene.significant_wave_height)?;
     for cascade in &scene.cascades {
