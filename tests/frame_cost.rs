@@ -3,8 +3,9 @@
 mod support;
 
 use glam::{DVec3, Mat3, Vec3};
-use support::stage::{SCENES, Stage, shipped};
-use swell::draw::{Buoy, Hand, Look, Pose, Raft, hand, ray, shaders as s};
+use support::stage::{SCENES, Stage, eye, shipped};
+use swell::draw::{Buoy, Eye, Fov, Hand, Look, Pose, Raft, hand, ray, shaders as s};
+use swell::lod::Quality;
 
 /// `table` stands in the page word for word.
 fn is_documented(table: &str) {
@@ -74,4 +75,62 @@ fn counts_are_documented() {
         ));
     }
     is_documented(&table);
+}
+
+/// Directions that a rider looks in, level and all around: the most of them counts.
+const HEADINGS: u32 = 12;
+
+#[test]
+fn a_headsets_frame_is_documented_for_each_quality() {
+    let mut table = String::from(
+        "| quality | draws | patches | triangles a view | vertices a view | fetches a vertex | bytes uploaded |\n\
+         |---|---:|---:|---:|---:|---:|---:|\n",
+    );
+    for (word, quality) in [
+        ("low", Quality::Low),
+        ("medium", Quality::Medium),
+        ("high", Quality::High),
+        ("ultra", Quality::Ultra),
+    ] {
+        let mut scene = shipped("open_ocean");
+        scene.lod.quality = quality;
+        let mut stage = Stage::new(&scene, [160, 160], 2, Look::Water, 12.5);
+        let deck = Pose { position: DVec3::new(0.0, 0.25, 0.0), axes: Mat3::IDENTITY };
+        let head = deck.position + DVec3::Y * 1.6;
+        let mut solids = Raft { pose: deck, length: 2.4, width: 2.4, freeboard: 0.25 }.solids(head).to_vec();
+        for side in [Hand::Left, Hand::Right] {
+            solids.extend(hand(Pose { position: head, axes: Mat3::IDENTITY }, side));
+        }
+        stage.host.set_scenery(&solids, 0.0);
+        let (mut most, mut bytes) = (stage.counts, 0);
+        for heading in 0..HEADINGS {
+            let yaw = std::f64::consts::TAU * f64::from(heading) / f64::from(HEADINGS);
+            stage.frame(12.5, &wide_pair(head, yaw));
+            let c = stage.counts;
+            most.draws = most.draws.max(c.draws);
+            most.patches = most.patches.max(c.patches);
+            most.triangles = most.triangles.max(c.triangles);
+            most.vertices = most.vertices.max(c.vertices);
+            bytes = bytes.max(stage.host.uploaded());
+        }
+        let fetches = s::OCEAN_VERTEX_MAIN_FETCHES[scene.sea.cascades.len() - 1];
+        table.push_str(&format!(
+            "| {word} | {} | {} | {} | {} | {fetches} | {bytes} |\n",
+            most.draws, most.patches, most.triangles, most.vertices
+        ));
+    }
+    is_documented(&table);
+}
+
+/// Eyes 63 mm apart whose views reach 54 degrees outwards, 40 inwards, 44 up and 55 down.
+fn wide_pair(head: DVec3, yaw: f64) -> [Eye; 2] {
+    let [out, inwards, up, down] = [54.0_f32, 40.0, 44.0, 55.0].map(|angle| angle.to_radians().tan());
+    let fov = |left, right| Fov { left, right, up, down: -down };
+    let middle = eye(head, [yaw, 0.0, 0.0], fov(-out, out));
+    let right = middle.axes.x_axis.as_dvec3();
+    [(-0.0315, fov(-out, inwards)), (0.0315, fov(-inwards, out))].map(|(shift, fov)| Eye {
+        position: head + right * shift,
+        fov,
+        ..middle
+    })
 }
