@@ -107,24 +107,24 @@ fn it_shows_the_sea_and_closing_it_ends_in_order() {
     assert_eq!(screen.titles(), [""; 0], "no window is left");
 }
 
+/// The lines of a log.
+fn lines(log: &Path) -> Vec<serde_json::Value> {
+    let text = std::fs::read_to_string(log).unwrap();
+    text.lines().map(|line| serde_json::from_str(line).unwrap()).collect()
+}
+
 #[test]
 fn so_many_frames_a_log_and_the_last_picture() {
     let screen = Xvfb::start([400, 300]);
-    let running =
-        Running::start(&screen, &["--frames", "30", "--screenshot", "last.png", "--frame-log", "log.jsonl"]);
-    let log = running.folder.path().join("log.jsonl");
-    let folder = running.folder.path().to_owned();
-    let (picture, lines) = {
-        let Running { child, folder: kept } = running;
-        Running { child, folder: tempfile::tempdir().unwrap() }.ends_quietly();
-        let read = (Picture::load(&folder.join("last.png")), std::fs::read_to_string(log).unwrap());
-        assert_eq!(names(kept.path()), ["last.png", "log.jsonl"]);
-        read
-    };
-    assert_eq!(picture.size, SIZE);
-    assert!(is_the_sea(&picture));
-    let frames: Vec<serde_json::Value> =
-        lines.lines().map(|line| serde_json::from_str(line).unwrap()).collect();
+    let folder = tempfile::tempdir().unwrap();
+    let [last, log] = ["last.png", "log.jsonl"].map(|name| folder.path().join(name));
+    let [to_last, to_log] = [&last, &log].map(|path| path.to_str().unwrap());
+    let more = ["--frames", "30", "--screenshot", to_last, "--frame-log", to_log];
+    Running::start(&screen, &more).ends_quietly();
+    assert_eq!(names(folder.path()), ["last.png", "log.jsonl"]);
+    let picture = Picture::load(&last);
+    assert!(picture.size == SIZE && is_the_sea(&picture));
+    let frames = lines(&log);
     assert_eq!(frames.len(), 30);
     let mut before = -1.0;
     for (index, frame) in frames.iter().enumerate() {
@@ -136,6 +136,33 @@ fn so_many_frames_a_log_and_the_last_picture() {
             assert!(number(key) > 0.0, "{key} {frame}");
         }
     }
+}
+
+#[test]
+fn the_sea_stands_still_while_nobody_can_see_it() {
+    let screen = Xvfb::start([400, 300]);
+    let running = Running::start(&screen, &["--frame-log", "log.jsonl"]);
+    let log = running.folder.path().join("log.jsonl");
+    let window = screen.window("Swell");
+    sea_in(&screen, &window);
+    window.focus();
+    window.minimise();
+    std::thread::sleep(Duration::from_secs(3));
+    window.restore();
+    window.focus();
+    sea_in(&screen, &window);
+    window.close();
+    let Running { child, folder } = running;
+    Running { child, folder: tempfile::tempdir().unwrap() }.ends_quietly();
+    let frames = lines(&log);
+    drop(folder);
+    let number = |index: usize, key: &str| frames[index][key].as_f64().unwrap();
+    let longest =
+        (1..frames.len()).max_by(|&a, &b| number(a, "milliseconds").total_cmp(&number(b, "milliseconds")));
+    let longest = longest.unwrap();
+    assert!(number(longest, "milliseconds") > 1500.0, "it went on drawing: {}", frames[longest]);
+    let step = number(longest + 1, "time") - number(longest, "time");
+    assert!(step < 1.0, "the sea moved {step} s on: {}", frames[longest]);
 }
 
 #[test]
