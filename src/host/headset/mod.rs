@@ -248,6 +248,11 @@ impl Show<'_> {
         let time = stage.session.wait()?;
         stage.session.begin()?;
         let views = if time.should_render && !ending { stage.session.locate(time)? } else { None };
+        // The eyes, the images and the hands are seen to while the sea's workers are at it.
+        let seconds = match views {
+            Some(_) => self.pace.begin(&mut self.sea, time)?,
+            None => self.pace.time_of(time),
+        };
         let turn = match views {
             Some(_) => stage.acquire()?,
             None => None,
@@ -258,10 +263,10 @@ impl Show<'_> {
                 self.report.skipped += 1;
             }
             let state = stage.session.lifecycle().name();
-            return guest.frame(&HeadsetFrame { time: self.pace.time_of(time), state, drawn: None });
+            return guest.frame(&HeadsetFrame { time: seconds, state, drawn: None });
         };
         let hands = stage.input.hands(&stage.session, time)?;
-        let (seconds, maps) = self.pace.maps(&mut self.sea, time)?;
+        let maps = self.pace.maps(&mut self.sea)?;
         let ridden = self.ride.step(self.scene, maps, seconds, &views, &hands);
         let index = self.report.shown as usize;
         let counts = world.painter.paint(index, (&stage.target, turn), ridden.moment(maps), |commands| {

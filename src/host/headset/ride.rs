@@ -8,7 +8,7 @@ use crate::raft::{Input, Rider, Stick, yaw_of};
 use crate::scene::Scene;
 use crate::sea::SeaMaps;
 use crate::xr::{HANDS, Hand, VIEWS, View};
-use glam::{DVec2, DVec3, Vec3Swizzles};
+use glam::DVec2;
 
 /// A rider and what floats around them.
 pub struct Ride {
@@ -41,11 +41,8 @@ impl Ride {
     /// # Errors
     /// Settings of the raft that are out of range.
     pub fn new(scene: &Scene) -> Result<Self, HostError> {
-        let camera = &scene.camera;
-        let (eye, look) = (DVec3::from(camera.eye), DVec3::from(camera.look));
-        let ahead = look - eye;
-        let heading = f64::atan2(-ahead.x, -ahead.z);
-        Ok(Self { rider: Rider::new(&scene.raft, eye.xz(), heading)?, afloat: Afloat::default() })
+        let (at, heading) = (scene.camera.ground(), scene.camera.heading());
+        Ok(Self { rider: Rider::new(&scene.raft, at, heading)?, afloat: Afloat::default() })
     }
 
     /// Moves on to `time`, seconds, over the sea of `maps`.
