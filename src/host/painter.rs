@@ -44,13 +44,31 @@ impl Painter {
     pub fn paint(
         &mut self,
         index: usize,
+        target: (&Target, Turn),
+        moment: Moment<'_>,
+        after: impl FnOnce(Recorder<'_>),
+    ) -> Result<DrawCounts, HostError> {
+        self.paint_moving(index, target, None, moment, after)
+    }
+
+    /// The same, with the frame's motion vectors into `motion`, where there is one, right after the frame.
+    ///
+    /// # Errors
+    /// As [`Self::paint`], or motion was not prepared.
+    pub fn paint_moving(
+        &mut self,
+        index: usize,
         (target, turn): (&Target, Turn),
+        motion: Option<(&Target, Turn)>,
         moment: Moment<'_>,
         after: impl FnOnce(Recorder<'_>),
     ) -> Result<DrawCounts, HostError> {
         let slot = index % FRAMES_IN_FLIGHT;
         let recording = self.commands[slot].begin()?;
-        let counts = self.renderer.record(recording, target, turn, slot, moment)?;
+        let mut counts = self.renderer.record(recording, target, turn, slot, moment)?;
+        if let Some((target, turn)) = motion {
+            counts += self.renderer.record_motion(recording, target, turn)?;
+        }
         after(recording);
         self.commands[slot].submit()?;
         Ok(counts)
@@ -79,6 +97,15 @@ impl Painter {
     pub fn set_hidden_area(&mut self, meshes: [HiddenMesh<'_>; 2]) -> Result<(), HostError> {
         self.wait_all()?;
         Ok(self.renderer.set_hidden_area(&self.device, meshes)?)
+    }
+
+    /// Readies motion vectors for targets like `target`. The frame after has none before it.
+    ///
+    /// # Errors
+    /// As [`Renderer::prepare_motion`], or the device was lost.
+    pub fn prepare_motion(&mut self, target: &Target) -> Result<(), HostError> {
+        self.wait_all()?;
+        Ok(self.renderer.prepare_motion(&self.device, target)?)
     }
 
     /// The device drawn on.

@@ -2,7 +2,7 @@
 
 use super::error::{Doing, XrError, check};
 use super::runtime::VIEWS;
-use super::session::{FrameTime, Session};
+use super::session::{FrameTime, Pose, Session};
 use super::swapchain::Swapchain;
 use openxr as xr;
 use openxr::sys::{self, Handle as _};
@@ -32,8 +32,17 @@ pub struct Motion<'a> {
     pub depth: &'a Swapchain,
     /// Its range.
     pub range: DepthRange,
-    /// How the person's own space moved since the frame before (gliding, turning): this frame's pose in the last one's.
-    pub space_delta: super::Pose,
+    /// How the person's own space moved since the frame before.
+    pub step: SpaceStep,
+}
+
+/// How the space that poses are in moved in the world since the frame before, by the application's doing.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SpaceStep {
+    /// Where the space is now, in what it was in the frame before.
+    pub pose: Pose,
+    /// It jumped: nothing is to be made of this step.
+    pub jumped: bool,
 }
 
 impl Session {
@@ -117,11 +126,12 @@ fn warp_info(
     view: usize,
     next: *const std::ffi::c_void,
 ) -> sys::CompositionLayerSpaceWarpInfoFB {
-    let ([x, y, z], [i, j, k, w]) = (motion.space_delta.position, motion.space_delta.orientation);
+    use sys::CompositionLayerSpaceWarpInfoFlagsFB as Flags;
+    let Pose { position: [x, y, z], orientation: [i, j, k, w] } = motion.step.pose;
     sys::CompositionLayerSpaceWarpInfoFB {
         ty: sys::CompositionLayerSpaceWarpInfoFB::TYPE,
         next,
-        layer_flags: sys::CompositionLayerSpaceWarpInfoFlagsFB::EMPTY,
+        layer_flags: if motion.step.jumped { Flags::FRAME_SKIP } else { Flags::EMPTY },
         motion_vector_sub_image: motion.vectors.sub_image(view),
         app_space_delta_pose: xr::Posef {
             orientation: xr::Quaternionf { x: i, y: j, z: k, w },

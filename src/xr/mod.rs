@@ -19,7 +19,7 @@ pub mod vendor;
 mod vulkan;
 
 pub use error::XrError;
-pub use frame::{DepthRange, Layer, Motion};
+pub use frame::{DepthRange, Layer, Motion, SpaceStep};
 pub use input::{HANDS, Hand, Input};
 pub use lifecycle::{Demand, Lifecycle};
 pub use notice::Notice;

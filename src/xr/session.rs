@@ -22,6 +22,9 @@ pub struct Pose {
 }
 
 impl Pose {
+    /// At the origin, not turned.
+    pub const IDENTITY: Self = Self { position: [0.0; 3], orientation: [0.0, 0.0, 0.0, 1.0] };
+
     pub(super) fn of(pose: xr::Posef) -> Self {
         let (p, q) = (pose.position, pose.orientation);
         Self { position: [p.x, p.y, p.z], orientation: [q.x, q.y, q.z, q.w] }

@@ -35,6 +35,10 @@ pub enum Usage {
     },
     /// Depth.
     Depth,
+    /// Motion vectors for space warp.
+    Motion,
+    /// Depth for space warp.
+    MotionDepth,
 }
 
 /// `XrVulkanSwapchainCreateInfoMETA` as the header has it: Vulkan's flags have 32 bits, and `openxr-sys` 0.14 gives them 64.
@@ -75,6 +79,11 @@ impl Swapchain {
                 xr::SwapchainUsageFlags::COLOR_ATTACHMENT | copied
             }
             Usage::Depth => xr::SwapchainUsageFlags::DEPTH_STENCIL_ATTACHMENT,
+            // The extension asks for `SAMPLED` with the depth, and its sample has it with both.
+            Usage::Motion => xr::SwapchainUsageFlags::COLOR_ATTACHMENT | xr::SwapchainUsageFlags::SAMPLED,
+            Usage::MotionDepth => {
+                xr::SwapchainUsageFlags::DEPTH_STENCIL_ATTACHMENT | xr::SwapchainUsageFlags::SAMPLED
+            }
         };
         let meta = VulkanSwapchainCreateInfo {
             ty: sys::VulkanSwapchainCreateInfoMETA::TYPE,

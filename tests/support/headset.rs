@@ -1,5 +1,6 @@
 //! Somebody who looks on while the library's headset host draws: states, eyes, and pictures of chosen frames.
 use super::picture::Picture;
+use super::stage::Stage;
 use std::sync::Arc;
 use swell::draw::{DrawCounts, Eye, Look, Solid};
 use swell::gpu::{Buffer, Commands, Device, MemoryLocation, Validation};
@@ -50,6 +51,53 @@ impl Watcher {
     ) -> Result<HeadsetReport, HostError> {
         headset(scene, settings, self)
     }
+
+    /// Each picture is what a camera of one eye sees there and then, but for what lenses hide.
+    pub fn sees_what_a_lone_camera_sees(&self, scene: &Scene) {
+        let mut alone: Option<Stage> = None;
+        for (index, seen) in self.seen.iter().enumerate() {
+            let Some(views) = &seen.pictures else { continue };
+            let apart = views[0].difference(&views[1]).mean;
+            assert!(apart > 0.02, "frame {index}: the eyes see the same: {apart}");
+            let mono =
+                alone.get_or_insert_with(|| Stage::new(scene, views[0].size, 1, Look::Water, seen.time));
+            mono.host.set_scenery(&seen.solids, seen.vignette);
+            for (view, eye) in views.iter().zip(seen.eyes) {
+                // Some drivers leave layer 1 with its clear colour.
+                assert!(view.colours() > 1000, "frame {index}: {} colours", view.colours());
+                let [view, lone] = lenses_over(view, &mono.picture(seen.time, &[eye]));
+                let difference = view.difference(&lone);
+                println!("frame {index}: mean {}, 99th percentile {}", difference.mean, difference.high);
+                // The foam remembers what came before, and the lone camera chooses detail for one eye, not for the head.
+                assert!(
+                    difference.mean < 0.004 && difference.high < 0.05,
+                    "{} {}",
+                    difference.mean,
+                    difference.high
+                );
+            }
+        }
+    }
+}
+
+/// Both with black wherever `seen` is black, and a pixel around: what the lenses hide, and its softened edge.
+fn lenses_over(seen: &Picture, lone: &Picture) -> [Picture; 2] {
+    let [width, height] = seen.size;
+    let black = |x: u32, y: u32| seen.pixel(x, y) == [0, 0, 0];
+    let around = |at: u32, most: u32| at.saturating_sub(1)..=(at + 1).min(most - 1);
+    let mut both = [seen.clone(), lone.clone()];
+    let mut hidden = 0;
+    for (x, y) in (0..height).flat_map(|y| (0..width).map(move |x| (x, y))) {
+        if around(x, width).any(|x| around(y, height).any(|y| black(x, y))) {
+            let at = 3 * (y * width + x) as usize;
+            both.iter_mut().for_each(|picture| picture.rgb[at..at + 3].fill(0));
+            hidden += 1;
+        }
+    }
+    // The corners, and not the picture.
+    let pixels = width * height;
+    assert!(hidden > pixels / 100 && hidden < pixels / 8, "{hidden} of {pixels} pixels are black");
+    both
 }
 
 /// Everything checked, nothing waited for.
@@ -64,6 +112,7 @@ pub fn settings(frames: u64) -> HeadsetSettings {
         scale: 1.0,
         refresh_rate: None,
         foveation: FoveationLevel::High,
+        space_warp: false,
     }
 }
 

@@ -4,10 +4,12 @@
 //! log, a person at the keyboard) is a [`Guest`] of this loop and never makes it wait.
 
 mod eyes;
+mod leap;
 mod pace;
 mod ride;
 mod stage;
 mod visit;
+mod warp;
 
 pub use visit::{Drawn, Guest, HeadsetFrame};
 
@@ -48,6 +50,8 @@ pub struct HeadsetSettings {
     pub refresh_rate: Option<f32>,
     /// How coarse the rim of a view may be, where the runtime can.
     pub foveation: FoveationLevel,
+    /// Draw every other frame only, where the runtime makes those between from motion vectors (`XR_FB_space_warp`).
+    pub space_warp: bool,
 }
 
 /// What a run came to.
@@ -190,6 +194,9 @@ impl Show<'_> {
             }
         };
         stage.show_hidden_area(&mut world.painter)?;
+        if let Some(warp) = &stage.warp {
+            world.painter.prepare_motion(warp.target())?;
+        }
         self.pace.forget_clock();
         let mut buffer = EventDataBuffer::new();
         let mut asked_to_end: Option<Instant> = None;
@@ -253,12 +260,12 @@ impl Show<'_> {
             Some(_) => self.pace.begin(&mut self.sea, time)?,
             None => self.pace.time_of(time),
         };
-        let turn = match views {
+        let turns = match views {
             Some(_) => stage.acquire()?,
             None => None,
         };
-        let (Some(views), Some(turn)) = (views, turn) else {
-            stage.session.end(time, None)?;
+        let (Some(views), Some(turns)) = (views, turns) else {
+            stage.end_empty(time)?;
             if !ending {
                 self.report.skipped += 1;
             }
@@ -269,11 +276,12 @@ impl Show<'_> {
         let maps = self.pace.maps(&mut self.sea)?;
         let ridden = self.ride.step(self.scene, maps, seconds, &views, &hands);
         let index = self.report.shown as usize;
-        let counts = world.painter.paint(index, (&stage.target, turn), ridden.moment(maps), |commands| {
-            stage.copy(commands, turn);
+        let (target, motion) = ((&stage.target, turns.views), stage.motion(turns));
+        let counts = world.painter.paint_moving(index, target, motion, ridden.moment(maps), |commands| {
+            stage.copy(commands, turns.views);
         })?;
         stage.release()?;
-        stage.end(time)?;
+        stage.end(time, ridden.step)?;
         for hand in (0..HANDS).filter(|&hand| ridden.buzz[hand]) {
             stage.input.buzz(&stage.session, hand, 0.5)?;
         }

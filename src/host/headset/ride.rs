@@ -1,19 +1,21 @@
 //! The person: what their hands and head do, and where that puts them.
 
 use super::eyes;
+use super::leap::Leap;
 use crate::draw::{Eye, Moment, Solid};
 use crate::host::HostError;
 use crate::host::afloat::Afloat;
 use crate::raft::{Input, Rider, Stick, yaw_of};
 use crate::scene::Scene;
 use crate::sea::SeaMaps;
-use crate::xr::{HANDS, Hand, VIEWS, View};
+use crate::xr::{HANDS, Hand, SpaceStep, VIEWS, View};
 use glam::DVec2;
 
 /// A rider and what floats around them.
 pub struct Ride {
     rider: Rider,
     afloat: Afloat,
+    leap: Leap,
 }
 
 /// Where a frame is seen from, and what is afloat in it.
@@ -26,6 +28,8 @@ pub struct Ridden<'a> {
     pub solids: &'a [Solid],
     /// How far the vignette is closed.
     pub vignette: f32,
+    /// How play space has moved in the world since the frame before.
+    pub step: SpaceStep,
 }
 
 impl Ridden<'_> {
@@ -42,7 +46,8 @@ impl Ride {
     /// Settings of the raft that are out of range.
     pub fn new(scene: &Scene) -> Result<Self, HostError> {
         let (at, heading) = (scene.camera.ground(), scene.camera.heading());
-        Ok(Self { rider: Rider::new(&scene.raft, at, heading)?, afloat: Afloat::default() })
+        let rider = Rider::new(&scene.raft, at, heading)?;
+        Ok(Self { rider, afloat: Afloat::default(), leap: Leap::default() })
     }
 
     /// Moves on to `time`, seconds, over the sea of `maps`.
@@ -73,7 +78,9 @@ impl Ride {
         }
         // A snap turn is felt in the hand that made it.
         let turned = heading.z_axis.dot(self.rider.play_space().axes.z_axis) < SNAPPED;
-        buzz[1] |= turned && scene.raft.smooth_turn == 0.0;
+        let snapped = turned && scene.raft.smooth_turn == 0.0;
+        buzz[1] |= snapped;
+        let step = self.leap.step(self.rider.play_space(), views, snapped);
         let eyes = eyes::eyes(&self.rider, views);
         self.afloat.begin(&scene.buoys, maps);
         let between = (eyes[0].position + eyes[1].position) * 0.5;
@@ -82,7 +89,7 @@ impl Ride {
         self.afloat.hands([0, 1].map(|hand| hands[hand].grip.map(|grip| eyes::placed(rider, grip))));
         #[expect(clippy::cast_possible_truncation, reason = "0 to 1")]
         let vignette = self.rider.vignette() as f32;
-        Ridden { eyes, buzz, solids: self.afloat.solids(), vignette }
+        Ridden { eyes, buzz, solids: self.afloat.solids(), vignette, step }
     }
 
     /// The left stick, and whatever trigger or pinch pulls towards where its hand points, relative to the head.

@@ -1,21 +1,22 @@
 //! A session and the images that are drawn in it.
 
 use super::HeadsetSettings;
+use super::warp::Warp;
 use crate::draw::{HiddenMesh, NEAR};
 use crate::gpu::{Device, GpuError, Image, ImageInfo, Lent, Recorder, Target, TargetInfo, Turn};
 use crate::host::HostError;
 use crate::host::painter::Painter;
 use crate::xr::vendor::{self, Foveation, HandJoints, ThreadRole};
 use crate::xr::{
-    DepthRange, FrameTime, Input, Layer, Runtime, Session, Swapchain, SwapchainInfo, Usage, VIEWS, XrError,
-    extensions,
+    DepthRange, FrameTime, Input, Layer, Runtime, Session, SpaceStep, Swapchain, SwapchainInfo, Usage, VIEWS,
+    XrError, extensions,
 };
 use ash::vk;
 use std::sync::Arc;
 use std::time::Duration;
 
 /// How long an image is waited for before a frame goes without: far longer than a compositor that lives keeps one.
-const IMAGE_PATIENCE: Duration = Duration::from_millis(500);
+pub(super) const IMAGE_PATIENCE: Duration = Duration::from_millis(500);
 
 /// Formats that views are drawn in: what a shader writes is linear, and what is stored is sRGB.
 const COLORS: [vk::Format; 2] = [vk::Format::R8G8B8A8_SRGB, vk::Format::B8G8R8A8_SRGB];
@@ -26,12 +27,22 @@ pub struct Stage {
     picture: Option<Image>,
     color: Swapchain,
     depth: Option<Swapchain>,
+    pub warp: Option<Warp>,
     pub input: Input,
     joints: Option<HandJoints>,
     foveation: Option<Foveation>,
     refresh_rate: Option<f32>,
     sustained: bool,
     pub session: Session,
+}
+
+/// Images whose turn it is in a frame.
+#[derive(Clone, Copy)]
+pub struct Turns {
+    /// Of the views.
+    pub views: Turn,
+    /// Of their motion, where that is drawn.
+    pub motion: Option<Turn>,
 }
 
 impl AsRef<Target> for Stage {
@@ -100,13 +111,26 @@ impl Stage {
                 subsampled,
             },
         )?;
+        let warp = if settings.space_warp { Warp::new(&session, device, &formats)? } else { None };
         let picture = if looks { Some(copy_of(device, &info)?) } else { None };
         let input = Input::new(&session)?;
         let joints = HandJoints::new(&session)?;
         let refresh_rate = vendor::choose_refresh_rate(&session, settings.refresh_rate)?;
         let sustained = vendor::sustain(&session)?;
         vendor::hint(&session, ThreadRole::Renderer, std::process::id())?;
-        Ok(Self { target, picture, color, depth, input, joints, foveation, refresh_rate, sustained, session })
+        Ok(Self {
+            target,
+            picture,
+            color,
+            depth,
+            warp,
+            input,
+            joints,
+            foveation,
+            refresh_rate,
+            sustained,
+            session,
+        })
     }
 
     /// Says once what was found.
@@ -134,6 +158,10 @@ impl Stage {
         extras.extend(self.refresh_rate.map(|rate| format!("{rate} Hz")));
         extras.extend(self.depth.is_some().then(|| "depth submitted".to_owned()));
         extras.extend(self.foveation.is_some().then(|| format!("foveation {:?}", settings.foveation)));
+        extras.extend(self.warp.as_ref().map(|warp| {
+            let [width, height] = warp.size();
+            format!("space warp from {width}x{height}")
+        }));
         extras.extend(self.sustained.then(|| "sustained clocks".to_owned()));
         extras.extend(self.joints.is_some().then(|| "hands tracked".to_owned()));
         eprintln!(
@@ -166,17 +194,24 @@ impl Stage {
         )
     }
 
-    /// The images whose turn it is, or nothing where they did not come in time.
+    /// The images whose turn it is, or nothing where those of the views did not come in time.
     ///
     /// # Errors
     /// The session or the runtime has gone.
-    pub fn acquire(&mut self) -> Result<Option<Turn>, XrError> {
+    pub fn acquire(&mut self) -> Result<Option<Turns>, XrError> {
         let Some(color) = self.color.acquire(IMAGE_PATIENCE)? else { return Ok(None) };
         let depth = match &mut self.depth {
             Some(depth) => depth.acquire(IMAGE_PATIENCE)?,
             None => Some(0),
         };
-        Ok(depth.map(|depth| Turn { color, depth }))
+        let Some(depth) = depth else { return Ok(None) };
+        let motion = self.warp.as_mut().map_or(Ok(None), Warp::acquire)?;
+        Ok(Some(Turns { views: Turn { color, depth }, motion }))
+    }
+
+    /// Where the frame's motion goes, if it is to be drawn.
+    pub fn motion(&self, turns: Turns) -> Option<(&Target, Turn)> {
+        Some((self.warp.as_ref()?.target(), turns.motion?))
     }
 
     /// Gives the images back, drawn.
@@ -185,21 +220,33 @@ impl Stage {
     /// The session or the runtime has gone.
     pub fn release(&mut self) -> Result<(), XrError> {
         self.color.release()?;
-        self.depth.as_mut().map_or(Ok(()), Swapchain::release)
+        self.depth.as_mut().map_or(Ok(()), Swapchain::release)?;
+        self.warp.as_mut().map_or(Ok(()), Warp::release)
     }
 
-    /// Ends the frame with what was drawn.
+    /// Ends the frame with what was drawn, and where its motion was drawn, with that and the `step` of play space.
     ///
     /// # Errors
     /// The session or the runtime has gone.
-    pub fn end(&mut self, time: FrameTime) -> Result<(), XrError> {
+    pub fn end(&mut self, time: FrameTime, step: SpaceStep) -> Result<(), XrError> {
         let range = DepthRange { near: NEAR };
         let layer = Layer {
             color: &self.color,
             depth: self.depth.as_ref().map(|depth| (depth, range)),
-            motion: None,
+            motion: self.warp.as_mut().and_then(|warp| warp.shown(range, step)),
         };
         self.session.end(time, Some(&layer))
+    }
+
+    /// Ends the frame with nothing to see.
+    ///
+    /// # Errors
+    /// The session or the runtime has gone.
+    pub fn end_empty(&mut self, time: FrameTime) -> Result<(), XrError> {
+        if let Some(warp) = &mut self.warp {
+            warp.interrupt();
+        }
+        self.session.end(time, None)
     }
 
     /// Records a copy of what was drawn, where somebody looks.
