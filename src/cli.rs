@@ -89,6 +89,9 @@ struct Run {
     /// With --xr, the refresh rate to ask for, hertz; the highest if not given.
     #[arg(long, value_parser = hertz, value_name = "HZ")]
     refresh_rate: Option<f32>,
+    /// With --xr, let the runtime make every other frame where it can (XR_FB_space_warp).
+    #[arg(long)]
+    space_warp: bool,
     /// Folder for the clip that is rendered where there is neither display nor headset.
     #[arg(long, default_value = "out", value_name = "DIR")]
     out: PathBuf,
@@ -221,6 +224,7 @@ impl Run {
                 mirror: self.mirror,
                 scale: self.xr_scale,
                 refresh_rate: self.refresh_rate,
+                space_warp: self.space_warp,
             }),
             out: self.out,
             device: self.device,

@@ -51,11 +51,13 @@ pub struct XrOptions {
     pub scale: f32,
     /// Refresh rate to ask for, hertz.
     pub refresh_rate: Option<f32>,
+    /// The runtime makes every other frame.
+    pub space_warp: bool,
 }
 
 impl Default for XrOptions {
     fn default() -> Self {
-        Self { wait: false, mirror: Mirror::None, scale: 1.0, refresh_rate: None }
+        Self { wait: false, mirror: Mirror::None, scale: 1.0, refresh_rate: None, space_warp: false }
     }
 }
 
@@ -156,6 +158,7 @@ fn in_headset(
         scale: xr.scale,
         refresh_rate: xr.refresh_rate,
         foveation: FoveationLevel::default(),
+        space_warp: xr.space_warp,
     };
     let shown = headset(scene, &settings, &mut companion);
     // The files are ended whatever happened.

@@ -90,7 +90,7 @@ impl Event {
 /// # Safety
 ///
 /// `E` is an event, which no buffer is too small for.
-unsafe fn write<E>(buffer: *mut sys::EventDataBuffer, event: E) {
+pub unsafe fn write<E>(buffer: *mut sys::EventDataBuffer, event: E) {
     // SAFETY: the caller's promise.
     unsafe { buffer.cast::<E>().write(event) }
 }

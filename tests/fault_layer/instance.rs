@@ -30,7 +30,7 @@ unsafe extern "system" fn xrNegotiateLoaderApiLayerInterface(
 }
 
 /// A loader closes its layers with the instance, and the counters would begin anew with the next one.
-fn stay_loaded() {
+pub fn stay_loaded() {
     let function = xrNegotiateLoaderApiLayerInterface as *const c_void;
     let mut place = MaybeUninit::<libc::Dl_info>::zeroed();
     // SAFETY: dladdr writes where it found the function; its file is loaded already, and is opened once more.

@@ -11,5 +11,6 @@ mod events;
 mod instance;
 mod next;
 mod plan;
+mod pretend;
 mod runtime;
 mod state;

@@ -1,13 +1,19 @@
 //! The same library as a runtime: another one, named by `SWELL_RUNTIME`, without the extensions that `SWELL_HIDDEN` names
-//! (commas between). A layer cannot do this: loaders ask runtimes for extensions past all layers.
-use openxr::sys::{self, Result as Xr, pfn};
+//! (commas between), and with those of `pretend`. A layer cannot do this: loaders ask runtimes for extensions past all
+//! layers.
+use crate::instance::stay_loaded;
+use crate::pretend;
+use openxr::sys::{self, Handle as _, Result as Xr, pfn};
 use std::ffi::{CStr, CString, c_char, c_void};
 use std::mem::transmute;
 use std::ptr;
 use std::sync::OnceLock;
+use std::sync::atomic::{AtomicU64, Ordering};
 
 /// The other runtime's.
 static REAL: OnceLock<pfn::GetInstanceProcAddr> = OnceLock::new();
+/// The instance made last, or 0.
+static INSTANCE: AtomicU64 = AtomicU64::new(0);
 
 /// # Safety
 ///
@@ -17,6 +23,7 @@ unsafe extern "system" fn xrNegotiateLoaderRuntimeInterface(
     loader: *const sys::NegotiateLoaderInfo,
     request: *mut sys::NegotiateRuntimeRequest,
 ) -> Xr {
+    stay_loaded();
     let name = CString::new(std::env::var("SWELL_RUNTIME").expect("SWELL_RUNTIME")).expect("SWELL_RUNTIME");
     // SAFETY: the library is a runtime, whose function of this name has this type; it is passed what the loader passed.
     unsafe {
@@ -47,6 +54,10 @@ unsafe extern "system" fn get_instance_proc_addr(
     let real = REAL.get().expect("the loader did not negotiate");
     // SAFETY: the caller's arguments, passed on; ours have the types their names promise.
     unsafe {
+        if let Some(own) = pretend::function(CStr::from_ptr(name)) {
+            *function = Some(own);
+            return Xr::SUCCESS;
+        }
         let result = real(instance, name, function);
         if result == Xr::SUCCESS {
             let name = CStr::from_ptr(name);
@@ -68,12 +79,14 @@ unsafe extern "system" fn get_instance_proc_addr(
 /// # Safety
 ///
 /// `F` is the type of the function `name`.
-unsafe fn real<F: Copy>(name: &CStr) -> F {
+pub unsafe fn real<F: Copy>(name: &CStr) -> F {
     let mut function: Option<pfn::VoidFunction> = None;
     let get = REAL.get().expect("the loader did not negotiate");
-    // SAFETY: both functions are there without an instance; the caller's promise.
+    let global = name == c"xrEnumerateInstanceExtensionProperties" || name == c"xrCreateInstance";
+    let instance = sys::Instance::from_raw(if global { 0 } else { INSTANCE.load(Ordering::Acquire) });
+    // SAFETY: the function is there without an instance, or is asked for with one; the caller's promise.
     unsafe {
-        get(sys::Instance::default(), name.as_ptr(), &mut function);
+        get(instance, name.as_ptr(), &mut function);
         std::mem::transmute_copy::<pfn::VoidFunction, F>(
             &function.expect("a function that every runtime has"),
         )
@@ -107,6 +120,15 @@ unsafe extern "system" fn enumerate_extensions(
             return result;
         }
         known.retain(|known| !is_hidden(CStr::from_ptr(known.extension_name.as_ptr())));
+        for own in pretend::names() {
+            if known.iter().all(|known| CStr::from_ptr(known.extension_name.as_ptr()) != own) {
+                let mut told = sys::ExtensionProperties { extension_version: 1, ..blank };
+                for (letter, own) in told.extension_name.iter_mut().zip(own.to_bytes()) {
+                    *letter = *own as c_char;
+                }
+                known.push(told);
+            }
+        }
         *count = known.len() as u32;
         if capacity == 0 {
             return Xr::SUCCESS;
@@ -129,12 +151,23 @@ unsafe extern "system" fn create_instance(
 ) -> Xr {
     // SAFETY: the caller's structure holds an array of C strings.
     unsafe {
-        let names = (*info).enabled_extension_names;
+        let mut passed = Vec::new();
         for index in 0..(*info).enabled_extension_count as usize {
-            if is_hidden(CStr::from_ptr(*names.add(index))) {
+            let name = *(*info).enabled_extension_names.add(index);
+            if is_hidden(CStr::from_ptr(name)) {
                 return Xr::ERROR_EXTENSION_NOT_PRESENT;
             }
+            if !pretend::is_pretended(CStr::from_ptr(name)) {
+                passed.push(name);
+            }
         }
-        real::<pfn::CreateInstance>(c"xrCreateInstance")(info, instance)
+        let mut info = *info;
+        info.enabled_extension_count = passed.len() as u32;
+        info.enabled_extension_names = passed.as_ptr();
+        let result = real::<pfn::CreateInstance>(c"xrCreateInstance")(&info, instance);
+        if result == Xr::SUCCESS {
+            INSTANCE.store((*instance).into_raw(), Ordering::Release);
+        }
+        result
     }
 }

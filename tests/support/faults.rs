@@ -42,6 +42,17 @@ pub fn between(service: &Service, command: &mut Command, faults: &str) -> Record
 
 /// Shows `command` Monado without `extensions`.
 pub fn hidden(service: &Service, command: &mut Command, extensions: &[&str]) {
+    wrapped(service, command).env("SWELL_HIDDEN", extensions.join(","));
+}
+
+/// Shows `command` Monado with `extensions` that `tests/fault_layer/pretend` plays. Call it besides [`between`], whose record
+/// tells what was asked of them.
+pub fn pretended(service: &Service, command: &mut Command, extensions: &[&str]) {
+    wrapped(service, command).env("SWELL_PRETENDED", extensions.join(","));
+}
+
+/// The library as a runtime around Monado.
+fn wrapped<'a>(service: &Service, command: &'a mut Command) -> &'a mut Command {
     let read = |file: &Path| fs::read_to_string(file).unwrap();
     let monado = Path::new(&std::env::var_os("XR_RUNTIME_JSON").expect("run tests with ./x test")).to_owned();
     let monado: serde_json::Value = serde_json::from_str(&read(&monado)).unwrap();
@@ -54,7 +65,6 @@ pub fn hidden(service: &Service, command: &mut Command, extensions: &[&str]) {
         .env_remove("SWELL_XR")
         .env("XR_RUNTIME_JSON", file)
         .env("SWELL_RUNTIME", monado["runtime"]["library_path"].as_str().unwrap())
-        .env("SWELL_HIDDEN", extensions.join(","));
 }
 
 /// Beside the tests' programs, where `./x test` builds it.

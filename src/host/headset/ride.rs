@@ -9,7 +9,7 @@ use crate::raft::{Input, Rider, Stick, yaw_of};
 use crate::scene::Scene;
 use crate::sea::SeaMaps;
 use crate::xr::{HANDS, Hand, SpaceStep, VIEWS, View};
-use glam::DVec2;
+use glam::{DVec2, Vec2, Vec3Swizzles};
 
 /// A rider and what floats around them.
 pub struct Ride {
@@ -60,7 +60,7 @@ impl Ride {
         hands: &[Hand; HANDS],
     ) -> Ridden<'_> {
         let head = eyes::head(views);
-        let heading = self.rider.play_space().axes;
+        let before = self.rider.play_space().axes.z_axis;
         let (glide, turn) = (self.glide(head.yaw, hands), hands[1].stick);
         let input = Input {
             glide,
@@ -77,8 +77,9 @@ impl Ride {
             }
         }
         // A snap turn is felt in the hand that made it.
-        let turned = heading.z_axis.dot(self.rider.play_space().axes.z_axis) < SNAPPED;
-        let snapped = turned && scene.raft.smooth_turn == 0.0;
+        // Seen from above, so that a deck that tilts far between two frames is no turn.
+        let turned = Vec2::angle_to(before.xz(), self.rider.play_space().axes.z_axis.xz());
+        let snapped = scene.raft.smooth_turn == 0.0 && f64::from(turned.abs()) > 0.5 * scene.raft.snap_turn;
         buzz[1] |= snapped;
         let step = self.leap.step(self.rider.play_space(), views, snapped);
         let eyes = eyes::eyes(&self.rider, views);
@@ -106,6 +107,3 @@ impl Ride {
         Stick { x: way.x, y: way.y }
     }
 }
-
-/// Cosine of an angle that no deck tilts by within a frame and every snap turn exceeds: half of the least, a degree.
-const SNAPPED: f32 = 0.999_96;
