@@ -160,7 +160,7 @@ fn only_water_has_solids_and_there_are_not_too_many() {
     stage.frame(TIME, &[]);
     stage.host.set_scenery(&full, 0.0);
     let error = stage.host.run([TIME], |_| Ok(())).unwrap_err().to_string();
-    assert_eq!(error, "257 solids in a frame, at most 256 are drawn");
+    assert_eq!(error, format!("{} solids in a frame, at most {MOST_SOLIDS} are drawn", MOST_SOLIDS + 1));
     // After an error the next frame is drawn all the same.
     stage.host.set_scenery(&[], 0.0);
     stage.frame(TIME, &[]);

@@ -1,4 +1,4 @@
-//! Markers for the hands, from the poses that OpenXR gives them.
+//! Markers for the hands, from the poses that OpenXR gives them: controllers, or joints.
 
 use super::raft::LEAD;
 use super::solids::{Pose, Shape, Solid};
@@ -16,6 +16,15 @@ pub enum Hand {
     Right,
 }
 
+impl Hand {
+    const fn color(self) -> [f32; 3] {
+        match self {
+            Self::Left => [0.03, 0.16, 0.55],
+            Self::Right => [0.60, 0.17, 0.02],
+        }
+    }
+}
+
 const DARK: [f32; 3] = [0.05, 0.05, 0.055];
 
 /// A pose whose y is the other's -z: cylinders lie along what is pointed at.
@@ -26,10 +35,7 @@ fn forward(pose: Pose) -> Pose {
 
 /// A controller held at `grip`: OpenXR's grip pose, whose -z runs through the fist towards the thumb.
 pub fn hand(grip: Pose, hand: Hand) -> [Solid; HAND_SOLIDS] {
-    let color = match hand {
-        Hand::Left => [0.03, 0.16, 0.55],
-        Hand::Right => [0.60, 0.17, 0.02],
-    };
+    let color = hand.color();
     let along = forward(grip);
     let parts = [
         along.solid(Shape::Cylinder, Vec3::Y * -0.01, Vec3::new(0.034, 0.11, 0.034), DARK),
@@ -38,6 +44,13 @@ pub fn hand(grip: Pose, hand: Hand) -> [Solid; HAND_SOLIDS] {
     ];
     // Seen together with the deck: what is nearer has to stay nearer.
     parts.map(|part| Solid { lead: LEAD, ..part })
+}
+
+/// A joint of a hand without a controller: a ball of `radius` metres, within what a hand may have.
+pub fn joint(pose: Pose, radius: f32, hand: Hand) -> Solid {
+    // Not `clamp`, which leaves a number that is none as it is.
+    let radius = radius.max(0.002).min(0.03);
+    Solid { lead: LEAD, ..pose.solid(Shape::Sphere, Vec3::ZERO, Vec3::splat(2.0 * radius), hand.color()) }
 }
 
 /// A ray of `length` metres from `aim`: OpenXR's aim pose, which points along -z.

@@ -32,7 +32,7 @@ pub use camera::{Eye, Fov, NEAR, eyes};
 pub use counts::DrawCounts;
 pub use debug_view::Look;
 pub use error::DrawError;
-pub use hands::{HAND_SOLIDS, Hand, hand, ray};
+pub use hands::{HAND_SOLIDS, Hand, hand, joint, ray};
 pub use hidden_area::HiddenMesh;
 pub use moment::Moment;
 pub use raft::{RAFT_SOLIDS, Raft};

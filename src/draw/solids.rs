@@ -16,7 +16,7 @@ use std::ops::Range;
 use std::sync::Arc;
 
 /// The most solids that one frame shows.
-pub const MOST_SOLIDS: usize = 320;
+pub const MOST_SOLIDS: usize = 384;
 
 /// A unit mesh: one metre across, centred on its origin.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -3,7 +3,8 @@
 use crate::draw::{self, Buoy, MOST_SOLIDS, Pose, Solid};
 use crate::raft::{BuoySettings, RaftSettings};
 use crate::sea::SeaMaps;
-use crate::xr::HANDS;
+use crate::xr::vendor::Joints;
+use crate::xr::{self, HANDS, Hand};
 use glam::DVec3;
 
 /// A frame's solids; its memory is used again by the next.
@@ -35,11 +36,20 @@ impl Afloat {
         self.solids.extend(draw::Raft { pose, length, width, freeboard }.solids(head));
     }
 
-    /// Adds what the hands hold: `grips` are poses in the world, left and right, where they are tracked.
-    pub fn hands(&mut self, grips: [Option<Pose>; HANDS]) {
-        for (grip, hand) in grips.into_iter().zip([draw::Hand::Left, draw::Hand::Right]) {
-            if let Some(grip) = grip {
-                self.solids.extend(draw::hand(grip, hand));
+    /// Adds what the hands hold, left and right, or the hands themselves where they hold nothing and are seen; `placed`
+    /// takes poses to the world.
+    pub fn hands(
+        &mut self,
+        hands: &[Hand; HANDS],
+        joints: &[Option<Joints>; HANDS],
+        placed: impl Fn(xr::Pose) -> Pose,
+    ) {
+        for (side, which) in [draw::Hand::Left, draw::Hand::Right].into_iter().enumerate() {
+            if let Some(grip) = hands[side].grip {
+                self.solids.extend(draw::hand(placed(grip), which));
+            } else if let Some(joints) = &joints[side] {
+                let balls = joints.iter().map(|&(pose, radius)| draw::joint(placed(pose), radius, which));
+                self.solids.extend(balls);
             }
         }
     }

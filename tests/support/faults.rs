@@ -1,6 +1,6 @@
 //! The layer of `tests/fault_layer` between a program and the runtime: faults on demand, and a record of the calls.
 use super::monado::Service;
-use super::program::SWELL;
+use super::program::{SWELL, Said, run};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -49,6 +49,21 @@ pub fn hidden(service: &Service, command: &mut Command, extensions: &[&str]) {
 /// tells what was asked of them.
 pub fn pretended(service: &Service, command: &mut Command, extensions: &[&str]) {
     wrapped(service, command).env("SWELL_PRETENDED", extensions.join(","));
+}
+
+/// What the ignored test `name` did on a runtime that pretends `extensions`, where `faults` struck. It passes, nobody
+/// objects, and nothing is wrong with what the runtime was told.
+pub fn passes(service: &Service, name: &str, extensions: &[&str], faults: &str) -> (Calls, Said) {
+    let mut client = service.reexec(name);
+    pretended(service, &mut client, extensions);
+    let record = between(service, &mut client, faults);
+    let said = run(&mut client);
+    let calls = record.calls();
+    print!("{}", said.out);
+    assert!(said.status == Some(0) && said.out.contains("1 passed"), "{said:?}\n{calls:#?}");
+    assert_eq!(record.objections(), [""; 0]);
+    assert_eq!(calls.count("wrong"), 0, "{calls:#?}");
+    (calls, said)
 }
 
 /// The library as a runtime around Monado.

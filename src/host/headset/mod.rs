@@ -273,8 +273,9 @@ impl Show<'_> {
             return guest.frame(&HeadsetFrame { time: seconds, state, drawn: None });
         };
         let hands = stage.input.hands(&stage.session, time)?;
+        let joints = stage.joints(time, &hands)?;
         let maps = self.pace.maps(&mut self.sea)?;
-        let ridden = self.ride.step(self.scene, maps, seconds, &views, &hands);
+        let ridden = self.ride.step(self.scene, maps, seconds, &views, &hands, &joints);
         let index = self.report.shown as usize;
         let (target, motion) = ((&stage.target, turns.views), stage.motion(turns));
         let counts = world.painter.paint_moving(index, target, motion, ridden.moment(maps), |commands| {

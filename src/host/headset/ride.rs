@@ -8,6 +8,7 @@ use crate::host::afloat::Afloat;
 use crate::raft::{Input, Rider, Stick, yaw_of};
 use crate::scene::Scene;
 use crate::sea::SeaMaps;
+use crate::xr::vendor::Joints;
 use crate::xr::{HANDS, Hand, SpaceStep, VIEWS, View};
 use glam::{DVec2, Vec2, Vec3Swizzles};
 
@@ -58,6 +59,7 @@ impl Ride {
         time: f64,
         views: &[View; VIEWS],
         hands: &[Hand; HANDS],
+        joints: &[Option<Joints>; HANDS],
     ) -> Ridden<'_> {
         let head = eyes::head(views);
         let before = self.rider.play_space().axes.z_axis;
@@ -87,7 +89,7 @@ impl Ride {
         let between = (eyes[0].position + eyes[1].position) * 0.5;
         self.afloat.raft(&scene.raft, self.rider.raft().pose(), between);
         let rider = &self.rider;
-        self.afloat.hands([0, 1].map(|hand| hands[hand].grip.map(|grip| eyes::placed(rider, grip))));
+        self.afloat.hands(hands, joints, |pose| eyes::placed(rider, pose));
         #[expect(clippy::cast_possible_truncation, reason = "0 to 1")]
         let vignette = self.rider.vignette() as f32;
         Ridden { eyes, buzz, solids: self.afloat.solids(), vignette, step }

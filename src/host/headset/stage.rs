@@ -6,10 +6,10 @@ use crate::draw::{HiddenMesh, NEAR};
 use crate::gpu::{Device, GpuError, Image, ImageInfo, Lent, Recorder, Target, TargetInfo, Turn};
 use crate::host::HostError;
 use crate::host::painter::Painter;
-use crate::xr::vendor::{self, Foveation, HandJoints, ThreadRole};
+use crate::xr::vendor::{self, Foveation, HandJoints, Joints, ThreadRole};
 use crate::xr::{
-    DepthRange, FrameTime, Input, Layer, Runtime, Session, SpaceStep, Swapchain, SwapchainInfo, Usage, VIEWS,
-    XrError, extensions,
+    DepthRange, FrameTime, HANDS, Hand, Input, Layer, Runtime, Session, SpaceStep, Swapchain, SwapchainInfo,
+    Usage, VIEWS, XrError, extensions,
 };
 use ash::vk;
 use std::sync::Arc;
@@ -168,6 +168,20 @@ impl Stage {
             "in use: {}",
             if extras.is_empty() { "nothing extra".to_owned() } else { extras.join(", ") }
         );
+    }
+
+    /// Joints of those `hands` at `time` that have no grip, where they are seen.
+    ///
+    /// # Errors
+    /// The session or the runtime has gone.
+    pub fn joints(&self, time: FrameTime, hands: &[Hand; HANDS]) -> Result<[Option<Joints>; HANDS], XrError> {
+        let mut found = [None; HANDS];
+        if let Some(joints) = &self.joints {
+            for side in (0..HANDS).filter(|&side| hands[side].grip.is_none()) {
+                found[side] = joints.locate(&self.session, time, side)?;
+            }
+        }
+        Ok(found)
     }
 
     /// Says what the hands hold.

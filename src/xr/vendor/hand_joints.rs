@@ -9,6 +9,9 @@ use openxr as xr;
 /// Joints of a hand: palm, wrist, four of the thumb, five of each finger.
 pub const JOINTS: usize = xr::HAND_JOINT_COUNT;
 
+/// A hand: each joint with its radius in metres.
+pub type Joints = [(Pose, f32); JOINTS];
+
 /// Trackers of both hands.
 pub struct HandJoints([xr::HandTracker; HANDS]);
 
@@ -29,16 +32,11 @@ impl HandJoints {
         Ok(Some(Self([tracker(xr::Hand::LEFT)?, tracker(xr::Hand::RIGHT)?])))
     }
 
-    /// Joints of one hand at `time`, each with its radius in metres; nothing while it is not seen. Allocates nothing.
+    /// Joints of one hand at `time`; nothing while it is not seen. Allocates nothing.
     ///
     /// # Errors
     /// The session or the runtime has gone.
-    pub fn locate(
-        &self,
-        session: &Session,
-        time: FrameTime,
-        hand: usize,
-    ) -> Result<Option<[(Pose, f32); JOINTS]>, XrError> {
+    pub fn locate(&self, session: &Session, time: FrameTime, hand: usize) -> Result<Option<Joints>, XrError> {
         let found =
             session.base().locate_hand_joints(&self.0[hand], time.raw).doing("locating a hand's joints")?;
         Ok(found.map(|joints| joints.map(|joint| (Pose::of(joint.pose), joint.radius))))

@@ -8,7 +8,7 @@ mod space_warp;
 mod threads;
 
 pub use foveation::{Foveation, FoveationLevel};
-pub use hand_joints::{HandJoints, JOINTS};
+pub use hand_joints::{HandJoints, JOINTS, Joints};
 pub use performance::sustain;
 pub use refresh_rate::choose_refresh_rate;
 pub use space_warp::motion_size;
