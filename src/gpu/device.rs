@@ -86,8 +86,9 @@ impl Device {
             names.push(ext::fragment_density_map::NAME.as_ptr());
         }
         let mut multiview = vk::PhysicalDeviceMultiviewFeatures::default().multiview(true);
-        let mut density =
-            vk::PhysicalDeviceFragmentDensityMapFeaturesEXT::default().fragment_density_map(true);
+        let mut density = vk::PhysicalDeviceFragmentDensityMapFeaturesEXT::default()
+            .fragment_density_map(true)
+            .fragment_density_map_non_subsampled_images(physical.density_maps_on_whole_images);
         let mut info = vk::DeviceCreateInfo::default()
             .queue_create_infos(&queues)
             .enabled_features(&features)

@@ -32,6 +32,8 @@ pub struct PhysicalDevice {
     pub depth_resolve: bool,
     /// Passes may have a fragment density map.
     pub density_maps: bool,
+    /// They may have one also where their images are not subsampled.
+    pub density_maps_on_whole_images: bool,
     /// Memory that a tiled GPU gives only to attachments that leave the tile.
     pub lazy_memory: Option<u32>,
     /// Limits.
@@ -118,6 +120,7 @@ impl PhysicalDevice {
             anisotropy: false,
             depth_resolve: false,
             density_maps: false,
+            density_maps_on_whole_images: false,
             lazy_memory: None,
             limits: basic.limits,
             cache_id: basic.pipeline_cache_uuid,
@@ -154,6 +157,8 @@ impl PhysicalDevice {
             kind.property_flags.contains(vk::MemoryPropertyFlags::LAZILY_ALLOCATED).then_some(index)
         });
         device.density_maps = density.fragment_density_map == vk::TRUE;
+        device.density_maps_on_whole_images =
+            device.density_maps && density.fragment_density_map_non_subsampled_images == vk::TRUE;
         if multiview.multiview == vk::FALSE {
             device.lacks.push("the multiview feature".to_owned());
         }

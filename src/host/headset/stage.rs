@@ -70,16 +70,19 @@ impl Stage {
                 what: "images of 8-bit sRGB colours".to_owned(),
             })?;
         let size = scaled(runtime, settings.scale);
-        let foveated =
+        let wished =
             settings.foveation != vendor::FoveationLevel::Off && Foveation::is_offered(runtime, device);
-        // Subsampled images cannot be copied from.
-        let subsampled = foveated && !looks && runtime.extensions.meta_vulkan_swapchain_create_info;
+        // Subsampled images cannot be copied from. Whole ones want a feature of the device, the depth that is kept too.
+        let whole = device.physical.density_maps_on_whole_images;
+        let subsampled = wished && !looks && runtime.extensions.meta_vulkan_swapchain_create_info;
+        let foveated = wished && (subsampled || whole);
         let usage = Usage::Color { copied: looks };
         let info = SwapchainInfo { size, format, usage, foveated, subsampled };
         let color = Swapchain::new(&session, info)?;
         let takes_depth = runtime.extensions.khr_composition_layer_depth
             && formats.contains(&crate::gpu::DEPTH_FORMAT)
-            && device.physical.depth_resolve;
+            && device.physical.depth_resolve
+            && (!foveated || whole);
         let depth = takes_depth
             .then(|| {
                 let info = SwapchainInfo {
