@@ -44,6 +44,8 @@ pub enum GpuError {
         doing: &'static str,
         /// The runtime's answer.
         reason: String,
+        /// Whether it is there no more.
+        gone: bool,
     },
     /// A Vulkan call failed.
     #[error("{doing}: Vulkan says {result:?}")]

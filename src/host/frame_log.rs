@@ -4,7 +4,7 @@ use crate::draw::DrawCounts;
 use crate::output::OutputError;
 use serde::Serialize;
 use std::fs::File;
-use std::io::{BufWriter, Write};
+use std::io::{LineWriter, Write};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
@@ -47,9 +47,13 @@ impl FrameRecord {
     }
 }
 
-/// A growing file, or none. Whoever follows it sees whole lines, some frames late.
+/// Bytes that hold any line: one that is longer would be written in pieces.
+const LONGEST: usize = 16 << 10;
+
+/// A growing file, or none. Each line is written at once and whole: whoever follows it, or reads what a killed program left,
+/// finds no half.
 pub struct FrameLog {
-    file: Option<(BufWriter<File>, PathBuf)>,
+    file: Option<(LineWriter<File>, PathBuf)>,
 }
 
 impl FrameLog {
@@ -60,7 +64,7 @@ impl FrameLog {
     pub fn create(path: Option<&Path>) -> Result<Self, OutputError> {
         let open = |path: &Path| {
             let file = File::create(path).map_err(|source| failed(path, source))?;
-            Ok((BufWriter::new(file), path.to_owned()))
+            Ok((LineWriter::with_capacity(LONGEST, file), path.to_owned()))
         };
         Ok(Self { file: path.map(open).transpose()? })
     }

@@ -9,12 +9,10 @@ pub enum XrError {
     #[error("no OpenXR loader: {0}; install it (Debian: apt-get install libopenxr-loader1)")]
     NoLoader(String),
     /// The loader found no runtime, or the one it found does not answer.
-    #[error(
-        "no OpenXR runtime answers ({0}); start one (Monado: monado-service), or wait for it with --xr-wait"
-    )]
+    #[error("{}; start one (Monado: monado-service), or wait for it with --xr-wait", self.what())]
     NoRuntime(sys::Result),
     /// The runtime is there and the headset is not.
-    #[error("the OpenXR runtime {runtime} has no headset ready; connect it, or wait for it with --xr-wait")]
+    #[error("{}; connect it, or wait for it with --xr-wait", self.what())]
     NoHeadset {
         /// The runtime's name.
         runtime: String,
@@ -33,7 +31,7 @@ pub enum XrError {
     )]
     NoValidation,
     /// The runtime has gone: everything made from it is dead.
-    #[error("the OpenXR runtime has gone (while {doing}); start it again, or wait for it with --xr-wait")]
+    #[error("{}; start it again, or wait for it with --xr-wait", self.what())]
     InstanceLost {
         /// What was being done.
         doing: &'static str,
@@ -51,7 +49,7 @@ pub enum XrError {
         times: u32,
     },
     /// A call failed.
-    #[error("{doing}: OpenXR says {result}")]
+    #[error("{doing}: OpenXR says {result:?}")]
     Call {
         /// What was being done.
         doing: &'static str,
@@ -65,6 +63,16 @@ impl XrError {
     pub const fn may_pass(&self) -> bool {
         matches!(self, Self::NoRuntime(_) | Self::NoHeadset { .. } | Self::InstanceLost { .. })
     }
+
+    /// What is wrong, without advice: for whoever waits already.
+    pub fn what(&self) -> String {
+        match self {
+            Self::NoRuntime(result) => format!("no OpenXR runtime answers ({result})"),
+            Self::NoHeadset { runtime } => format!("the OpenXR runtime {runtime} has no headset ready"),
+            Self::InstanceLost { doing } => format!("the OpenXR runtime has gone (while {doing})"),
+            other => other.to_string(),
+        }
+    }
 }
 
 /// Names what was being done when a call failed.
@@ -75,14 +83,16 @@ pub(super) trait Doing<T> {
 impl<T> Doing<T> for openxr::Result<T> {
     fn doing(self, doing: &'static str) -> Result<T, XrError> {
         self.map_err(|result| match result {
-            // A runtime that is being taken down may say that its handles are no handles.
-            sys::Result::ERROR_INSTANCE_LOST | sys::Result::ERROR_RUNTIME_UNAVAILABLE => {
-                XrError::InstanceLost { doing }
-            }
+            result if is_gone(result) => XrError::InstanceLost { doing },
             sys::Result::ERROR_SESSION_LOST => XrError::SessionLost { doing },
             _ => XrError::Call { doing, result },
         })
     }
+}
+
+/// Whether `result` means that the runtime is there no more.
+pub(super) const fn is_gone(result: sys::Result) -> bool {
+    matches!(result, sys::Result::ERROR_INSTANCE_LOST | sys::Result::ERROR_RUNTIME_UNAVAILABLE)
 }
 
 /// A raw call's answer; codes of success that are not plain success come back as they are.

@@ -1,9 +1,10 @@
 //! Vulkan as the runtime wants it: `XR_KHR_vulkan_enable2` creates instance and device and names the physical device.
 
+use super::error::is_gone;
 use super::runtime::Runtime;
 use crate::gpu::{API_VERSION, GpuError, Instance, Opener, PhysicalDevice, version};
 use ash::vk::{self, Handle};
-use openxr as xr;
+use openxr::{self as xr, sys};
 use std::ffi::c_void;
 use std::mem::transmute;
 
@@ -17,11 +18,16 @@ fn pointer<T: Handle>(handle: T) -> *const c_void {
     handle.as_raw() as usize as *const c_void
 }
 
+/// The runtime's `error` for the layer below, which knows no OpenXR.
+fn refused(doing: &'static str, error: sys::Result) -> GpuError {
+    GpuError::Runtime { doing, reason: error.to_string(), gone: is_gone(error) }
+}
+
 fn says<T>(doing: &'static str, answer: xr::Result<Result<T, i32>>) -> Result<T, GpuError> {
     match answer {
         Ok(Ok(value)) => Ok(value),
         Ok(Err(result)) => Err(GpuError::Vulkan { doing, result: vk::Result::from_raw(result) }),
-        Err(error) => Err(GpuError::Runtime { doing, reason: error.to_string() }),
+        Err(error) => Err(refused(doing, error)),
     }
 }
 
@@ -33,13 +39,13 @@ impl Opener for Runtime {
     ) -> Result<ash::Instance, GpuError> {
         let doing = "asking which Vulkan is wanted";
         let needs = self.instance.graphics_requirements::<xr::Vulkan>(self.system);
-        let needs = needs.map_err(|error| GpuError::Runtime { doing, reason: error.to_string() })?;
+        let needs = needs.map_err(|error| refused(doing, error))?;
         let least = needs.min_api_version_supported;
         let least = vk::make_api_version(0, least.major().into(), least.minor().into(), 0);
         if least > API_VERSION {
             let reason =
                 format!("it needs Vulkan {}, Swell asks for {}", version(least), version(API_VERSION));
-            return Err(GpuError::Runtime { doing, reason });
+            return Err(GpuError::Runtime { doing, reason, gone: false });
         }
         let get = get_instance_proc_addr(entry);
         // SAFETY: `info` and what it points to live past the call; the function is the loader's.
@@ -56,7 +62,7 @@ impl Opener for Runtime {
         let device =
             unsafe { self.instance.vulkan_graphics_device(self.system, pointer(instance.raw.handle())) };
         let doing = "asking for the headset's Vulkan device";
-        let device = device.map_err(|error| GpuError::Runtime { doing, reason: error.to_string() })?;
+        let device = device.map_err(|error| refused(doing, error))?;
         PhysicalDevice::given(instance, vk::PhysicalDevice::from_raw(device as usize as u64))
     }
 

@@ -123,6 +123,12 @@ impl Service {
         child.wait().unwrap();
     }
 
+    /// Stops the service in its tracks, and lets it go on.
+    pub fn signal(&self, signal: nix::sys::signal::Signal) {
+        let id = self.child.as_ref().expect("the service does not run").id();
+        nix::sys::signal::kill(nix::unistd::Pid::from_raw(id.try_into().unwrap()), signal).unwrap();
+    }
+
     /// Asks it to end, as a person would.
     pub fn stop(&mut self) {
         let mut child = self.child.take().expect("the service does not run");

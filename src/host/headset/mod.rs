@@ -6,6 +6,7 @@
 mod eyes;
 mod leap;
 mod pace;
+mod patience;
 mod ride;
 mod stage;
 mod visit;
@@ -22,6 +23,7 @@ use crate::sea::SeaAhead;
 use crate::xr::vendor::FoveationLevel;
 use crate::xr::{Demand, EventDataBuffer, HANDS, Notice, Runtime, XrError};
 use pace::Pace;
+use patience::{RETRY, find_runtime, gone, rest};
 use ride::Ride;
 use stage::Stage;
 use std::path::PathBuf;
@@ -69,8 +71,6 @@ pub struct HeadsetReport {
     pub said: Vec<String>,
 }
 
-/// How long between two looks for a runtime that is not there.
-const RETRY: Duration = Duration::from_millis(500);
 /// How long between two looks at a session that does not run.
 const REST: Duration = Duration::from_millis(10);
 /// A session that was asked to end and does not is left.
@@ -88,15 +88,30 @@ pub fn headset(
     guest: &mut dyn Guest,
 ) -> Result<HeadsetReport, HostError> {
     let report = HeadsetReport::default();
-    let Some(runtime) = find_runtime(settings, guest)? else { return Ok(report) };
-    let open = || open(settings, &runtime, guest);
-    let started = painter::start(scene, settings.look, settings.threads, None, open)?;
+    let (runtime, started) = loop {
+        let Some(runtime) = find_runtime(settings, guest)? else { return Ok(report) };
+        let open = || open(settings, &runtime, guest);
+        match painter::start(scene, settings.look, settings.threads, None, open) {
+            Ok(started) => break (runtime, started),
+            Err(error) => {
+                // What a guest made on the device must not outlive the runtime.
+                guest.closing();
+                match error {
+                    HostError::Xr(error) if settings.wait && error.may_pass() => {
+                        eprintln!("{}; waiting", error.what());
+                    }
+                    error => return Err(error),
+                }
+                if !rest(guest) {
+                    return Ok(report);
+                }
+            }
+        }
+    };
     let (sky, sea) = (started.sky, started.sea);
     let world = World { painter: started.painter, runtime };
     let mut show = Show { scene, settings, sky, sea, pace: Pace::default(), ride: Ride::new(scene)?, report };
     let ended = show.go_on(world, started.opened, guest);
-    // After an error too: what a guest made on the device must not outlive it.
-    guest.closing();
     show.report.missed = show.pace.missed();
     ended.map(|()| show.report)
 }
@@ -134,50 +149,88 @@ impl Show<'_> {
         loop {
             let shown = self.report.shown;
             let over = self.session(&mut world, &mut stage, guest);
-            losses = if self.report.shown > shown { 0 } else { losses };
+            let drew = self.report.shown > shown;
+            losses = if drew { 0 } else { losses };
             match over {
-                Ok(Over::Ended) => return self.end(world, stage, guest),
+                Ok(Over::Ended) => return self.part(world, stage, drew, guest),
                 Ok(Over::Lost) | Err(HostError::Xr(XrError::SessionLost { .. })) => {
+                    if self.is_enough(guest) {
+                        return self.part(world, stage, drew, guest);
+                    }
                     losses += 1;
                     if losses > MOST_LOSSES {
+                        self.part(world, stage, drew, guest)?;
                         return Err(XrError::LostAgain { times: losses }.into());
                     }
                     eprintln!("the session was lost; beginning another");
                     self.report.recovered += 1;
-                    world.painter.wait_all()?;
+                    keep(&world, stage.as_ref(), drew, guest)?;
                     stage = None;
                     thread::sleep(RETRY.min(REST * losses));
                 }
                 Err(HostError::Xr(error)) if self.settings.wait && error.may_pass() => {
-                    eprintln!("{error}");
-                    world.painter.wait_all()?;
-                    guest.closing();
-                    // In this order: what is drawn into, what draws, the device with it, the runtime.
-                    drop((stage.take(), world));
-                    let Some(runtime) = find_runtime(self.settings, guest)? else { return Ok(()) };
-                    let (device, opened) = open(self.settings, &runtime, guest)?;
-                    let painter =
-                        Painter::new(&device, opened.as_ref(), self.scene, &self.sky, self.settings.look)?;
-                    (world, stage) = (World { painter, runtime }, Some(opened));
+                    eprintln!("{}", error.what());
+                    self.part(world, stage, drew, guest)?;
+                    // One that goes as soon as it comes is not asked without a pause.
+                    let waited = drew || rest(guest);
+                    let again = if waited { self.again(guest)? } else { None };
+                    let Some((found, opened)) = again else { return Ok(()) };
+                    (world, stage) = (found, Some(opened));
                     self.report.recovered += 1;
                 }
-                Err(error) => return Err(error),
+                Err(error) => {
+                    // The error worth telling is the first.
+                    let _second = self.part(world, stage, drew, guest);
+                    return Err(error);
+                }
             }
         }
     }
 
     /// Everything goes in order, and what validation said of it is kept.
-    fn end(&mut self, world: World, stage: Option<Stage>, guest: &mut dyn Guest) -> Result<(), HostError> {
+    fn part(
+        &mut self,
+        world: World,
+        stage: Option<Stage>,
+        drew: bool,
+        guest: &mut dyn Guest,
+    ) -> Result<(), HostError> {
         let vulkan = world.painter.device().instance().heard();
         let openxr = world.runtime.heard();
-        world.painter.wait_all()?;
-        if let (Some(picture), true) = (stage.as_ref().and_then(Stage::picture), self.report.shown > 0) {
-            guest.last(picture)?;
-        }
+        let kept = keep(&world, stage.as_ref(), drew, guest);
         guest.closing();
-        drop((stage, world));
-        self.report.said = [vulkan.all(), openxr.all()].concat();
-        Ok(())
+        // In this order: what is drawn into, what draws, the device with it, the runtime.
+        drop(stage);
+        drop(world);
+        self.report.said.extend([vulkan.all(), openxr.all()].concat());
+        kept
+    }
+
+    /// A runtime that came back, its device and a first session; nothing where the guest would not wait longer.
+    fn again(&mut self, guest: &mut dyn Guest) -> Result<Option<(World, Stage)>, HostError> {
+        loop {
+            let Some(runtime) = find_runtime(self.settings, guest)? else { return Ok(None) };
+            match open(self.settings, &runtime, guest) {
+                Err(HostError::Xr(error)) if error.may_pass() => {
+                    eprintln!("{}; waiting", error.what());
+                    guest.closing();
+                    if !rest(guest) {
+                        return Ok(None);
+                    }
+                }
+                opened => {
+                    let (device, stage) = opened?;
+                    let painter =
+                        Painter::new(&device, stage.as_ref(), self.scene, &self.sky, self.settings.look)?;
+                    return Ok(Some((World { painter, runtime }, stage)));
+                }
+            }
+        }
+    }
+
+    /// Whether all was shown that was to be, or the guest wants the end.
+    fn is_enough(&self, guest: &mut dyn Guest) -> bool {
+        self.settings.frames.is_some_and(|frames| self.report.shown >= frames) || !guest.goes_on()
     }
 
     /// One session, from its first event to its last.
@@ -222,9 +275,8 @@ impl Show<'_> {
                     Notice::Recentred(_) | Notice::RefreshRate(_) | Notice::Performance => {}
                 }
             }
-            let enough = self.settings.frames.is_some_and(|frames| self.report.shown >= frames);
             let running = stage.session.lifecycle().is_running();
-            if enough || !guest.goes_on() {
+            if self.is_enough(guest) {
                 match asked_to_end {
                     None if running => {
                         stage.session.request_exit()?;
@@ -302,29 +354,12 @@ impl Show<'_> {
     }
 }
 
-/// A runtime with a headset; nothing where the guest would not wait longer.
-fn find_runtime(
-    settings: &HeadsetSettings,
-    guest: &mut dyn Guest,
-) -> Result<Option<Arc<Runtime>>, HostError> {
-    let mut told = false;
-    loop {
-        match Runtime::new(settings.validation) {
-            Err(error) if settings.wait && error.may_pass() => {
-                if !told {
-                    eprintln!("{error}; waiting");
-                    told = true;
-                }
-                let begun = Instant::now();
-                while begun.elapsed() < RETRY {
-                    if !guest.goes_on() {
-                        return Ok(None);
-                    }
-                    thread::sleep(REST);
-                }
-            }
-            other => return Ok(Some(other?)),
-        }
+/// Hands `guest` the latest picture, where the session drew one. Every frame is finished then.
+fn keep(world: &World, stage: Option<&Stage>, drew: bool, guest: &mut dyn Guest) -> Result<(), HostError> {
+    world.painter.wait_all()?;
+    match stage.and_then(Stage::picture) {
+        Some(picture) if drew => guest.last(picture),
+        _ => Ok(()),
     }
 }
 
@@ -334,8 +369,9 @@ fn open(
     runtime: &Arc<Runtime>,
     guest: &mut dyn Guest,
 ) -> Result<(Arc<Device>, Stage), HostError> {
-    let instance = Instance::new(settings.validation, guest.instance_extensions(), &**runtime)?;
-    let physical = crate::gpu::Opener::choose(&**runtime, &instance, None)?;
+    let instance =
+        Instance::new(settings.validation, guest.instance_extensions(), &**runtime).map_err(gone)?;
+    let physical = crate::gpu::Opener::choose(&**runtime, &instance, None).map_err(gone)?;
     // Where the runtime's device can show nothing in windows, the guest hears of it when it tries.
     let wanted: Vec<_> =
         guest.device_extensions().iter().copied().filter(|extension| physical.has(extension)).collect();
@@ -345,7 +381,7 @@ fn open(
         cache: settings.cache.as_deref(),
         opener: &**runtime,
     };
-    let device = Device::new(instance, physical, &needs)?;
+    let device = Device::new(instance, physical, &needs).map_err(gone)?;
     guest.opened(&device)?;
     let stage = Stage::new(runtime, &device, settings, guest.looks())?;
     stage.tell(settings);

@@ -66,7 +66,7 @@ pub trait Guest {
         Ok(())
     }
 
-    /// The run ends, and this is the last frame's picture, as in [`Drawn::picture`].
+    /// A session ends, and this is its last frame's picture, as in [`Drawn::picture`].
     ///
     /// # Errors
     /// It cannot be kept.
