@@ -4,7 +4,10 @@
 //! or on their order. Stages of one chain follow each other; chains that share nothing (the cascades of a sea) run
 //! side by side, and a worker that waits for one helps with another: nobody blocks.
 use std::{
-    sync::atomic::{AtomicU64, Ordering},
+    sync::{
+        Arc, Mutex, PoisonError,
+        atomic::{AtomicU64, Ordering},
+    },
     thread,
     time::{Duration, Instant},
 };
@@ -26,6 +29,7 @@ pub enum JobsError {
 #[derive(Debug)]
 pub struct Workers {
     pool: rayon::ThreadPool,
+    kernel_ids: Arc<Mutex<Vec<u32>>>,
 }
 
 impl Workers {
@@ -39,17 +43,28 @@ impl Workers {
         } else {
             threads
         };
+        let kernel_ids = Arc::<Mutex<Vec<u32>>>::default();
+        let started = Arc::clone(&kernel_ids);
         let pool = rayon::ThreadPoolBuilder::new()
             .num_threads(threads)
             .thread_name(|index| format!("swell-worker-{index}"))
+            .start_handler(move |_| {
+                started.lock().unwrap_or_else(PoisonError::into_inner).extend(kernel_id())
+            })
             .build()
             .map_err(|source| JobsError::Start { threads, source })?;
-        Ok(Self { pool })
+        Ok(Self { pool, kernel_ids })
     }
 
     /// Number of threads.
     pub fn threads(&self) -> usize {
         self.pool.current_num_threads()
+    }
+
+    /// The kernel's numbers of the threads that have started so far, for whoever tells a scheduler about them; none where
+    /// threads have no such number.
+    pub fn kernel_ids(&self) -> Vec<u32> {
+        self.kernel_ids.lock().unwrap_or_else(PoisonError::into_inner).clone()
     }
 
     /// Runs `work` on a worker, with the whole pool for its parallel-fors, and waits for it.
@@ -61,6 +76,18 @@ impl Workers {
     pub fn spawn(&self, work: impl FnOnce() + Send + 'static) {
         self.pool.spawn(work);
     }
+}
+
+/// The kernel's number of the calling thread.
+#[cfg(any(target_os = "linux", target_os = "android"))]
+pub fn kernel_id() -> Option<u32> {
+    u32::try_from(nix::unistd::gettid().as_raw()).ok()
+}
+
+/// The kernel's number of the calling thread, where it has one.
+#[cfg(not(any(target_os = "linux", target_os = "android")))]
+pub fn kernel_id() -> Option<u32> {
+    None
 }
 
 /// One node of a job graph: a parallel-for over `batch`, after every earlier stage that writes what it reads.

@@ -12,6 +12,15 @@ fn workers_are_named_and_counted() {
 }
 
 #[test]
+#[cfg(target_os = "linux")]
+fn workers_are_known_to_the_kernel() {
+    let workers = Workers::new(2).expect("threads");
+    let own = workers.run(swell::jobs::kernel_id).expect("Linux numbers threads");
+    assert!(workers.kernel_ids().contains(&own));
+    assert_ne!(Some(own), swell::jobs::kernel_id(), "this thread is no worker");
+}
+
+#[test]
 fn every_stage_reads_what_an_earlier_one_wrote() {
     // Made before the first step; the foam's memory also carries over from earlier steps.
     let mut written = vec!["spectrum"];

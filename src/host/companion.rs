@@ -195,6 +195,9 @@ impl Guest for Companion {
     }
 
     fn last(&mut self, picture: &Image) -> Result<(), HostError> {
+        if let Some(window) = &self.window {
+            window.wait()?;
+        }
         match self.settings.screenshot.clone() {
             Some(path) => self.keep(picture, path),
             None => Ok(()),

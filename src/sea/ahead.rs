@@ -24,7 +24,7 @@ pub struct SeaAhead {
     pending: Option<f64>,
     /// How long the step took whose maps were handed out last.
     took: Duration,
-    _workers: Workers,
+    workers: Workers,
 }
 
 #[derive(Debug)]
@@ -77,7 +77,7 @@ impl SeaAhead {
         let (front, spare) = (Some(sea.new_maps()), Some(sea.new_maps()));
         let driver = Arc::clone(&shared);
         workers.spawn(move || drive(sea, &driver));
-        Self { shared, front, spare, pending: None, took: Duration::ZERO, _workers: workers }
+        Self { shared, front, spare, pending: None, took: Duration::ZERO, workers }
     }
 
     /// Begins the step to `time`, unless it is already on its way. One to another time, which somebody began and then
@@ -141,6 +141,11 @@ impl SeaAhead {
             self.begin(time)?;
         }
         self.front.as_ref().ok_or(SeaError::Gone)
+    }
+
+    /// The kernel's numbers of the threads that step, see [`Workers::kernel_ids`].
+    pub fn kernel_ids(&self) -> Vec<u32> {
+        self.workers.kernel_ids()
     }
 
     /// How long the step took whose maps were handed out last.

@@ -246,6 +246,7 @@ impl Show<'_> {
                 kept.insert(Stage::new(&world.runtime, world.painter.device(), self.settings, guest.looks())?)
             }
         };
+        stage.hint_threads(&self.sea.kernel_ids())?;
         stage.show_hidden_area(&mut world.painter)?;
         if let Some(warp) = &stage.warp {
             world.painter.prepare_motion(warp.target())?;

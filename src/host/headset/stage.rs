@@ -6,6 +6,7 @@ use crate::draw::{HiddenMesh, NEAR};
 use crate::gpu::{Device, GpuError, Image, ImageInfo, Lent, Recorder, Target, TargetInfo, Turn};
 use crate::host::HostError;
 use crate::host::painter::Painter;
+use crate::jobs::kernel_id;
 use crate::xr::vendor::{self, Foveation, HandJoints, Joints, ThreadRole};
 use crate::xr::{
     DepthRange, FrameTime, HANDS, Hand, Input, Layer, Runtime, Session, SpaceStep, Swapchain, SwapchainInfo,
@@ -120,7 +121,6 @@ impl Stage {
         let joints = HandJoints::new(&session)?;
         let refresh_rate = vendor::choose_refresh_rate(&session, settings.refresh_rate)?;
         let sustained = vendor::sustain(&session)?;
-        vendor::hint(&session, ThreadRole::Renderer, std::process::id())?;
         Ok(Self {
             target,
             picture,
@@ -134,6 +134,20 @@ impl Stage {
             sustained,
             session,
         })
+    }
+
+    /// Tells the runtime which threads make the frame: this one, and the sea's `workers` by the kernel's numbers.
+    ///
+    /// # Errors
+    /// The session or the runtime has gone.
+    pub fn hint_threads(&self, workers: &[u32]) -> Result<(), XrError> {
+        if let Some(renderer) = kernel_id() {
+            vendor::hint(&self.session, ThreadRole::Renderer, renderer)?;
+        }
+        for &worker in workers {
+            vendor::hint(&self.session, ThreadRole::Worker, worker)?;
+        }
+        Ok(())
     }
 
     /// Says once what was found.

@@ -66,7 +66,8 @@ pub trait Guest {
         Ok(())
     }
 
-    /// A session ends, and this is its last frame's picture, as in [`Drawn::picture`].
+    /// The session is over, and this is its last frame's picture, as in [`Drawn::picture`]. It goes when this returns: whoever
+    /// still reads it waits for that.
     ///
     /// # Errors
     /// It cannot be kept.
