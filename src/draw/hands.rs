@@ -48,8 +48,8 @@ pub fn hand(grip: Pose, hand: Hand) -> [Solid; HAND_SOLIDS] {
 
 /// A joint of a hand without a controller: a ball of `radius` metres, within what a hand may have.
 pub fn joint(pose: Pose, radius: f32, hand: Hand) -> Solid {
-    // Not `clamp`, which leaves a number that is none as it is.
-    let radius = radius.max(0.002).min(0.03);
+    // What is no number is a small joint too.
+    let radius = if radius > 0.0 { radius.clamp(0.002, 0.03) } else { 0.002 };
     Solid { lead: LEAD, ..pose.solid(Shape::Sphere, Vec3::ZERO, Vec3::splat(2.0 * radius), hand.color()) }
 }
 
