@@ -31,6 +31,8 @@ pub struct Device {
     pub(super) render_pass2: Option<khr::create_renderpass2::Device>,
     /// Whether passes may have a fragment density map.
     pub density_maps: bool,
+    /// Whether it was opened with what windows need.
+    pub(super) presents: bool,
     debug: Option<ext::debug_utils::Device>,
     instance: Arc<Instance>,
 }
@@ -121,6 +123,7 @@ impl Device {
             allocator: ManuallyDrop::new(Mutex::new(allocator)),
             render_pass2,
             density_maps,
+            presents: needs.extensions.contains(&khr::swapchain::NAME),
             debug,
             instance,
         }))

@@ -15,7 +15,7 @@ use ash::{khr, vk};
 use std::ffi::CStr;
 use std::rc::Rc;
 use std::sync::Arc;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 /// A finished picture, one layer a view. Whatever draws it has been submitted.
 #[derive(Clone, Copy, Debug)]
@@ -74,11 +74,17 @@ pub struct Presenter {
     swapchain: Option<Swapchain>,
     /// The window's size that the swapchain was made for.
     size: [u32; 2],
+    /// The window's size as last seen, and since when.
+    seen: [u32; 2],
+    since: Instant,
     pace: Pace,
     surface: Rc<Surface>,
     window: Arc<dyn Shown>,
     device: Arc<Device>,
 }
+
+/// How long a mirror's size stays the same before it has that size.
+const AT_REST: Duration = Duration::from_millis(300);
 
 /// A lost surface or a changed window is tried again this often before it counts as gone.
 const TRIES: usize = 4;
@@ -92,6 +98,10 @@ impl Presenter {
     /// # Errors
     /// The window is gone, or the device cannot show anything on it.
     pub fn new(device: &Arc<Device>, window: &Arc<dyn Shown>, pace: Pace) -> Result<Self, GpuError> {
+        if !device.presents {
+            let feature = "VK_KHR_swapchain, which windows need".to_owned();
+            return Err(GpuError::Missing { device: device.physical.name.clone(), feature });
+        }
         let surface = Rc::new(Surface::new(device, window)?);
         let commands = (0..FRAMES_IN_FLIGHT)
             .map(|i| Commands::new(device, &format!("present {i}")))
@@ -101,6 +111,8 @@ impl Presenter {
             slot: 0,
             swapchain: None,
             size: [0, 0],
+            seen: [0, 0],
+            since: Instant::now(),
             pace,
             surface,
             window: Arc::clone(window),
@@ -136,7 +148,7 @@ impl Presenter {
         size: [u32; 2],
         patience: Duration,
     ) -> Result<Outcome, GpuError> {
-        if self.pace == Pace::Mirror && !self.commands[self.slot].is_done() {
+        if self.pace == Pace::Mirror && (!self.commands[self.slot].is_done() || !self.is_settled(size)) {
             return Ok(Outcome::Late);
         }
         for last in (0..TRIES).rev() {
@@ -152,6 +164,15 @@ impl Presenter {
             }
         }
         Ok(Outcome::Late)
+    }
+
+    /// Making images anew waits for the queue, which a headset's frames are in too: a mirror that is being dragged larger
+    /// gets new ones once, when it has come to rest.
+    fn is_settled(&mut self, size: [u32; 2]) -> bool {
+        if size != self.seen {
+            (self.seen, self.since) = (size, Instant::now());
+        }
+        size == self.size || self.swapchain.is_none() || self.since.elapsed() > AT_REST
     }
 
     /// Makes images where there are none that fit.

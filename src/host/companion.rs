@@ -7,7 +7,7 @@ use super::headset::{Drawn, Guest, HeadsetFrame};
 use super::mirror::Mirror;
 use super::{DesktopWindow, FrameLog, FrameRecord, HostError, Key, Screenshots, read_back};
 use crate::draw::Eye;
-use crate::gpu::{Device, Image, Pace, Picture, Presenter};
+use crate::gpu::{Device, GpuError, Image, Pace, Picture, Presenter};
 use crate::xr::VIEWS;
 use serde::Serialize;
 use std::ffi::CStr;
@@ -183,6 +183,10 @@ impl Guest for Companion {
 
     fn device_extensions(&self) -> &[&'static CStr] {
         if self.window.is_some() { Presenter::DEVICE_EXTENSIONS } else { &[] }
+    }
+
+    fn refused(&mut self, why: &GpuError) {
+        self.end_mirror(why);
     }
 
     fn opened(&mut self, device: &Arc<Device>) -> Result<(), HostError> {

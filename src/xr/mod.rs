@@ -23,7 +23,7 @@ pub use frame::{DepthRange, Layer, Motion, SpaceStep};
 pub use input::{HANDS, Hand, Input};
 pub use lifecycle::{Demand, Lifecycle};
 pub use notice::Notice;
-pub use openxr::{EventDataBuffer, SessionState};
+pub use openxr::{EventDataBuffer, SessionState, Time};
 pub use runtime::{About, Runtime, VIEWS, ViewSize, about};
 pub use session::{FrameTime, Mask, Pose, Session, View};
 pub use swapchain::{Swapchain, SwapchainInfo, Usage};

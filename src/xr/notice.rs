@@ -9,8 +9,13 @@ pub enum Notice {
     State(xr::SessionState),
     /// The runtime is about to go.
     InstanceLossPending,
-    /// The floor's origin moves, at this time.
-    Recentred(xr::Time),
+    /// The origin of spaces of a kind moves.
+    Recentred {
+        /// Which kind.
+        space: xr::ReferenceSpaceType,
+        /// When.
+        at: xr::Time,
+    },
     /// An eye's visible area has changed.
     MaskChanged,
     /// A hand holds something else.
@@ -28,7 +33,9 @@ impl Notice {
         Some(match event {
             Event::SessionStateChanged(change) => Self::State(change.state()),
             Event::InstanceLossPending(_) => Self::InstanceLossPending,
-            Event::ReferenceSpaceChangePending(change) => Self::Recentred(change.change_time()),
+            Event::ReferenceSpaceChangePending(change) => {
+                Self::Recentred { space: change.reference_space_type(), at: change.change_time() }
+            }
             Event::VisibilityMaskChangedKHR(_) => Self::MaskChanged,
             Event::InteractionProfileChanged(_) => Self::ProfileChanged,
             Event::DisplayRefreshRateChangedFB(change) => Self::RefreshRate(change.to_display_refresh_rate()),

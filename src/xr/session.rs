@@ -61,6 +61,13 @@ pub struct FrameTime {
     pub should_render: bool,
 }
 
+impl FrameTime {
+    /// Whether the frame is seen at or after `at`.
+    pub fn is_from(self, at: xr::Time) -> bool {
+        self.raw.as_nanos() >= at.as_nanos()
+    }
+}
+
 /// A session with a headset.
 pub struct Session {
     /// Spaces go before the session.

@@ -11,25 +11,26 @@ mod ride;
 mod stage;
 mod visit;
 mod warp;
+mod world;
 
 pub use visit::{Drawn, Guest, HeadsetFrame};
 
 use super::HostError;
 use super::painter::{self, Painter};
 use crate::draw::{Look, SkyMap};
-use crate::gpu::{Device, DeviceNeeds, Instance, Validation};
+use crate::gpu::Validation;
 use crate::scene::Scene;
 use crate::sea::SeaAhead;
 use crate::xr::vendor::FoveationLevel;
-use crate::xr::{Demand, EventDataBuffer, HANDS, Notice, Runtime, XrError};
+use crate::xr::{Demand, EventDataBuffer, HANDS, Notice, XrError};
 use pace::Pace;
-use patience::{RETRY, find_runtime, gone, rest};
-use ride::Ride;
+use patience::{RETRY, find_runtime, rest};
+use ride::{Person, Ride};
 use stage::Stage;
 use std::path::PathBuf;
-use std::sync::Arc;
 use std::thread;
 use std::time::{Duration, Instant};
+use world::{World, keep, open};
 
 /// What to show, and how.
 #[derive(Clone, Debug)]
@@ -87,7 +88,7 @@ pub fn headset(
     settings: &HeadsetSettings,
     guest: &mut dyn Guest,
 ) -> Result<HeadsetReport, HostError> {
-    let report = HeadsetReport::default();
+    let (report, ride) = (HeadsetReport::default(), Ride::new(scene)?);
     let (runtime, started) = loop {
         let Some(runtime) = find_runtime(settings, guest)? else { return Ok(report) };
         let open = || open(settings, &runtime, guest);
@@ -110,17 +111,12 @@ pub fn headset(
     };
     let (sky, sea) = (started.sky, started.sea);
     let world = World { painter: started.painter, runtime };
-    let mut show = Show { scene, settings, sky, sea, pace: Pace::default(), ride: Ride::new(scene)?, report };
+    let mut show = Show { scene, settings, sky, sea, pace: Pace::default(), ride, report };
     let ended = show.go_on(world, started.opened, guest);
+    // Whatever went wrong: what a guest made on the device must not outlive the runtime.
+    guest.closing();
     show.report.missed = show.pace.missed();
     ended.map(|()| show.report)
-}
-
-/// What lives as long as one runtime.
-struct World {
-    /// Dropped before the device it holds.
-    painter: Painter,
-    runtime: Arc<Runtime>,
 }
 
 /// What survives the runtime.
@@ -151,39 +147,47 @@ impl Show<'_> {
             let over = self.session(&mut world, &mut stage, guest);
             let drew = self.report.shown > shown;
             losses = if drew { 0 } else { losses };
-            match over {
+            let lost = match over {
                 Ok(Over::Ended) => return self.part(world, stage, drew, guest),
-                Ok(Over::Lost) | Err(HostError::Xr(XrError::SessionLost { .. })) => {
-                    if self.is_enough(guest) {
-                        return self.part(world, stage, drew, guest);
-                    }
-                    losses += 1;
-                    if losses > MOST_LOSSES {
-                        self.part(world, stage, drew, guest)?;
-                        return Err(XrError::LostAgain { times: losses }.into());
-                    }
-                    eprintln!("the session was lost; beginning another");
-                    self.report.recovered += 1;
-                    keep(&world, stage.as_ref(), drew, guest)?;
-                    stage = None;
-                    thread::sleep(RETRY.min(REST * losses));
-                }
-                Err(HostError::Xr(error)) if self.settings.wait && error.may_pass() => {
-                    eprintln!("{}", error.what());
-                    self.part(world, stage, drew, guest)?;
-                    // One that goes as soon as it comes is not asked without a pause.
-                    let waited = drew || rest(guest);
-                    let again = if waited { self.again(guest)? } else { None };
-                    let Some((found, opened)) = again else { return Ok(()) };
-                    (world, stage) = (found, Some(opened));
-                    self.report.recovered += 1;
-                }
+                Ok(Over::Lost) | Err(HostError::Xr(XrError::SessionLost { .. })) => None,
+                // A headset that went takes its system with it: no session can be made for it any more.
+                Err(HostError::Xr(error)) if error.may_pass() || (losses > 0 && !drew) => Some(error),
                 Err(error) => {
                     // The error worth telling is the first.
                     let _second = self.part(world, stage, drew, guest);
                     return Err(error);
                 }
+            };
+            if self.is_enough(guest) {
+                return self.part(world, stage, drew, guest);
             }
+            losses += 1;
+            let lost = lost.or((losses > MOST_LOSSES).then_some(XrError::LostAgain { times: losses }));
+            match lost {
+                None => {
+                    eprintln!("the session was lost; beginning another");
+                    if let Err(error) = keep(&world, stage.as_ref(), drew, guest) {
+                        let _second = self.part(world, stage, false, guest);
+                        return Err(error);
+                    }
+                    stage = None;
+                    thread::sleep(RETRY.min(REST * 10 * losses));
+                }
+                Some(error) => {
+                    let parted = self.part(world, stage, drew, guest);
+                    if !self.settings.wait {
+                        return Err(error.into());
+                    }
+                    eprintln!("{}", error.what());
+                    parted?;
+                    // One that goes as soon as it comes is not asked without a pause.
+                    let waited = drew || rest(guest);
+                    let again = if waited { self.again(guest)? } else { None };
+                    let Some((found, opened)) = again else { return Ok(()) };
+                    (world, stage, losses) = (found, Some(opened), 0);
+                }
+            }
+            self.report.recovered += 1;
         }
     }
 
@@ -272,8 +276,10 @@ impl Show<'_> {
                     Notice::MaskChanged => stage.show_hidden_area(&mut world.painter)?,
                     Notice::ProfileChanged => stage.tell_hands()?,
                     Notice::EventsLost(count) => eprintln!("the OpenXR runtime dropped {count} events"),
-                    // The floor's origin is where the head is now, so it is the raft's middle again: nothing to do.
-                    Notice::Recentred(_) | Notice::RefreshRate(_) | Notice::Performance => {}
+                    Notice::Recentred { space, at } if space == stage.session.space => {
+                        stage.moves_at = Some(at);
+                    }
+                    Notice::Recentred { .. } | Notice::RefreshRate(_) | Notice::Performance => {}
                 }
             }
             let running = stage.session.lifecycle().is_running();
@@ -328,7 +334,9 @@ impl Show<'_> {
         let hands = stage.input.hands(&stage.session, time)?;
         let joints = stage.joints(time, &hands)?;
         let maps = self.pace.maps(&mut self.sea)?;
-        let ridden = self.ride.step(self.scene, maps, seconds, &views, &hands, &joints);
+        let moved = stage.has_moved(time);
+        let person = Person { views: &views, hands: &hands, joints: &joints, moved };
+        let ridden = self.ride.step(self.scene, maps, seconds, &person);
         let index = self.report.shown as usize;
         let (target, motion) = ((&stage.target, turns.views), stage.motion(turns));
         let counts = world.painter.paint_moving(index, target, motion, ridden.moment(maps), |commands| {
@@ -353,38 +361,4 @@ impl Show<'_> {
         let state = stage.session.lifecycle().name();
         guest.frame(&HeadsetFrame { time: seconds, state, drawn: Some(drawn) })
     }
-}
-
-/// Hands `guest` the latest picture, where the session drew one. Every frame is finished then.
-fn keep(world: &World, stage: Option<&Stage>, drew: bool, guest: &mut dyn Guest) -> Result<(), HostError> {
-    world.painter.wait_all()?;
-    match stage.and_then(Stage::picture) {
-        Some(picture) if drew => guest.last(picture),
-        _ => Ok(()),
-    }
-}
-
-/// Vulkan as the runtime wants it, and a first session.
-fn open(
-    settings: &HeadsetSettings,
-    runtime: &Arc<Runtime>,
-    guest: &mut dyn Guest,
-) -> Result<(Arc<Device>, Stage), HostError> {
-    let instance =
-        Instance::new(settings.validation, guest.instance_extensions(), &**runtime).map_err(gone)?;
-    let physical = crate::gpu::Opener::choose(&**runtime, &instance, None).map_err(gone)?;
-    // Where the runtime's device can show nothing in windows, the guest hears of it when it tries.
-    let wanted: Vec<_> =
-        guest.device_extensions().iter().copied().filter(|extension| physical.has(extension)).collect();
-    let needs = DeviceNeeds {
-        extensions: &wanted,
-        foveation: settings.foveation != FoveationLevel::Off,
-        cache: settings.cache.as_deref(),
-        opener: &**runtime,
-    };
-    let device = Device::new(instance, physical, &needs).map_err(gone)?;
-    guest.opened(&device)?;
-    let stage = Stage::new(runtime, &device, settings, guest.looks())?;
-    stage.tell(settings);
-    Ok((device, stage))
 }

@@ -19,6 +19,19 @@ pub struct Ride {
     leap: Leap,
 }
 
+/// What a headset knows of its wearer at a frame's time.
+#[derive(Clone, Copy)]
+pub struct Person<'a> {
+    /// Left, right.
+    pub views: &'a [View; VIEWS],
+    /// Controllers.
+    pub hands: &'a [Hand; HANDS],
+    /// Bare hands.
+    pub joints: &'a [Option<Joints>; HANDS],
+    /// Whether play space's origin has moved since the frame before.
+    pub moved: bool,
+}
+
 /// Where a frame is seen from, and what is afloat in it.
 pub struct Ridden<'a> {
     /// Left, right.
@@ -52,15 +65,8 @@ impl Ride {
     }
 
     /// Moves on to `time`, seconds, over the sea of `maps`.
-    pub fn step(
-        &mut self,
-        scene: &Scene,
-        maps: &SeaMaps,
-        time: f64,
-        views: &[View; VIEWS],
-        hands: &[Hand; HANDS],
-        joints: &[Option<Joints>; HANDS],
-    ) -> Ridden<'_> {
+    pub fn step(&mut self, scene: &Scene, maps: &SeaMaps, time: f64, person: &Person<'_>) -> Ridden<'_> {
+        let Person { views, hands, joints, moved } = *person;
         let head = eyes::head(views);
         let before = self.rider.play_space().axes.z_axis;
         let (glide, turn) = (self.glide(head.yaw, hands), hands[1].stick);
@@ -71,6 +77,10 @@ impl Ride {
             head,
         };
         self.rider.step(maps, time, &input);
+        // Wherever the runtime has put the person, it is the middle of the raft again.
+        if moved {
+            self.rider.recentre();
+        }
         let mut buzz = [false; HANDS];
         for (hand, buzz) in hands.iter().zip(&mut buzz) {
             if hand.recentre {
@@ -83,7 +93,7 @@ impl Ride {
         let turned = Vec2::angle_to(before.xz(), self.rider.play_space().axes.z_axis.xz());
         let snapped = scene.raft.smooth_turn == 0.0 && f64::from(turned.abs()) > 0.5 * scene.raft.snap_turn;
         buzz[1] |= snapped;
-        let step = self.leap.step(self.rider.play_space(), views, snapped);
+        let step = self.leap.step(self.rider.play_space(), views, snapped || moved);
         let eyes = eyes::eyes(&self.rider, views);
         self.afloat.begin(&scene.buoys, maps);
         let between = (eyes[0].position + eyes[1].position) * 0.5;

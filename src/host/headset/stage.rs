@@ -10,7 +10,7 @@ use crate::jobs::kernel_id;
 use crate::xr::vendor::{self, Foveation, HandJoints, Joints, ThreadRole};
 use crate::xr::{
     DepthRange, FrameTime, HANDS, Hand, Input, Layer, Runtime, Session, SpaceStep, Swapchain, SwapchainInfo,
-    Usage, VIEWS, XrError, extensions,
+    Time, Usage, VIEWS, XrError, extensions,
 };
 use ash::vk;
 use std::sync::Arc;
@@ -34,6 +34,8 @@ pub struct Stage {
     foveation: Option<Foveation>,
     refresh_rate: Option<f32>,
     sustained: bool,
+    /// When the runtime moves play space's origin, if it is about to.
+    pub moves_at: Option<Time>,
     pub session: Session,
 }
 
@@ -96,10 +98,13 @@ impl Stage {
                 Swapchain::new(&session, info)
             })
             .transpose()?;
-        let foveation = if foveated { Some(Foveation::new(&session, settings.foveation)?) } else { None };
-        if let Some(foveation) = &foveation {
-            foveation.apply(&session, &color)?;
-        }
+        let foveation = if foveated {
+            let profile = Foveation::new(&session, settings.foveation)
+                .and_then(|profile| profile.apply(&session, &color).map(|()| Some(profile)));
+            optional("foveation", profile, None)?
+        } else {
+            None
+        };
         let target = Target::over(
             device,
             TargetInfo {
@@ -118,9 +123,10 @@ impl Stage {
         let warp = if settings.space_warp { Warp::new(&session, device, &formats)? } else { None };
         let picture = if looks { Some(copy_of(device, &info)?) } else { None };
         let input = Input::new(&session)?;
-        let joints = HandJoints::new(&session)?;
-        let refresh_rate = vendor::choose_refresh_rate(&session, settings.refresh_rate)?;
-        let sustained = vendor::sustain(&session)?;
+        let joints = optional("hands without controllers", HandJoints::new(&session), None)?;
+        let refresh_rate = vendor::choose_refresh_rate(&session, settings.refresh_rate);
+        let refresh_rate = optional("a chosen refresh rate", refresh_rate, None)?;
+        let sustained = optional("sustained clocks", vendor::sustain(&session), false)?;
         Ok(Self {
             target,
             picture,
@@ -132,8 +138,14 @@ impl Stage {
             foveation,
             refresh_rate,
             sustained,
+            moves_at: None,
             session,
         })
+    }
+
+    /// Whether play space's origin has moved since the frame before the one of `time`.
+    pub fn has_moved(&mut self, time: FrameTime) -> bool {
+        self.moves_at.take_if(|at| time.is_from(*at)).is_some()
     }
 
     /// Tells the runtime which threads make the frame: this one, and the sea's `workers` by the kernel's numbers.
@@ -142,10 +154,12 @@ impl Stage {
     /// The session or the runtime has gone.
     pub fn hint_threads(&self, workers: &[u32]) -> Result<(), XrError> {
         if let Some(renderer) = kernel_id() {
-            vendor::hint(&self.session, ThreadRole::Renderer, renderer)?;
+            let told = vendor::hint(&self.session, ThreadRole::Renderer, renderer);
+            optional("a scheduled frame thread", told, false)?;
         }
         for &worker in workers {
-            vendor::hint(&self.session, ThreadRole::Worker, worker)?;
+            let told = vendor::hint(&self.session, ThreadRole::Worker, worker);
+            optional("scheduled workers", told, false)?;
         }
         Ok(())
     }
@@ -290,6 +304,17 @@ impl Stage {
     /// The copy.
     pub const fn picture(&self) -> Option<&Image> {
         self.picture.as_ref()
+    }
+}
+
+/// What is merely good to have: where a runtime offers it and then refuses, one line says so and it is gone `without`.
+fn optional<T>(what: &str, asked: Result<T, XrError>, without: T) -> Result<T, XrError> {
+    match asked {
+        Err(XrError::Call { result, .. }) => {
+            eprintln!("headset: without {what}, as OpenXR says {result}");
+            Ok(without)
+        }
+        other => other,
     }
 }
 

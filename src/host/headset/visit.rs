@@ -1,7 +1,7 @@
 //! Who else takes part in a headset's frames.
 
 use crate::draw::{DrawCounts, Eye, Solid};
-use crate::gpu::{Device, Image};
+use crate::gpu::{Device, GpuError, Image};
 use crate::host::HostError;
 use crate::xr::{HANDS, Hand, VIEWS};
 use std::ffi::CStr;
@@ -57,6 +57,9 @@ pub trait Guest {
     fn device_extensions(&self) -> &[&'static CStr] {
         &[]
     }
+
+    /// The guest's own window cannot be shown on, for this reason: nothing more is asked for it.
+    fn refused(&mut self, _why: &GpuError) {}
 
     /// A device was opened. It may be another one than before.
     ///
