@@ -41,7 +41,7 @@ fn a_killed_runtime_that_returns_goes_on() {
     let mut live = Live::start(&service, "swell", swell_xr(&service, &["--xr-wait", "--frames", "24"]));
     live.until_shown(8);
     service.kill();
-    live.until_said("; waiting");
+    live.until_said("no OpenXR runtime answers (");
     let before = live.frames();
     service.restart();
     let (said, frames) = live.end();
@@ -50,7 +50,7 @@ fn a_killed_runtime_that_returns_goes_on() {
     // On from where it was, however long nobody was there.
     goes_on(&frames, 1.0);
     let lines = own(&said.err);
-    assert!(lines[0].starts_with(GONE) && !lines[0].contains("--xr-wait"), "{said:?}");
+    assert!(lines[0].starts_with(GONE) && lines[0].ends_with("); waiting"), "{said:?}");
     assert!(
         lines[1].starts_with("no OpenXR runtime answers (") && lines[1].ends_with("; waiting"),
         "{said:?}"
@@ -150,11 +150,26 @@ fn a_lost_instance_is_begun_anew_where_it_is_waited_for() {
     let lines = own(&said.err);
     assert_eq!(
         lines[..2],
-        ["waiting for a frame", "listening for events"].map(|doing| format!("{GONE}{doing})"))
+        ["waiting for a frame", "listening for events"].map(|doing| format!("{GONE}{doing}); waiting"))
     );
     assert!(lines.len() == 3 && lines[2].ends_with("; 2 sessions begun anew"), "{said:?}");
     let calls = record.calls();
     assert_eq!((calls.count("create_instance"), calls.count("destroy_instance")), (3, 3), "{calls:?}");
+    assert_eq!(record.objections(), [""; 0]);
+}
+
+#[test]
+fn a_failure_of_the_runtime_is_waited_for_too() {
+    let service = Service::start(Settings::default());
+    let mut command = swell_xr(&service, &["--xr-wait", "--frames", "12"]);
+    let record = faults::between(&service, &mut command, "create_session_fails,wait_fails@6");
+    let (said, frames) = ended(&service, command);
+    assert_eq!((said.status, shown(&frames)), (Some(0), 12), "{said:?}");
+    goes_on(&frames, 1.0);
+    let lines = own(&said.err);
+    let waiting = |doing: &str| format!("{doing}: OpenXR says ERROR_RUNTIME_FAILURE; waiting");
+    assert_eq!(lines[..2], [waiting("creating the session"), waiting("waiting for a frame")]);
+    assert!(lines.len() == 3 && lines[2].ends_with("; 1 sessions begun anew"), "{said:?}");
     assert_eq!(record.objections(), [""; 0]);
 }
 

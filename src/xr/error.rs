@@ -59,9 +59,16 @@ pub enum XrError {
 }
 
 impl XrError {
-    /// Whether waiting may help: the runtime or the headset may yet come, or come back.
+    /// Whether waiting may help: the runtime or the headset may yet come, or come back. Monado calls it a failure of its own
+    /// where it goes while a session is begun.
     pub const fn may_pass(&self) -> bool {
-        matches!(self, Self::NoRuntime(_) | Self::NoHeadset { .. } | Self::InstanceLost { .. })
+        matches!(
+            self,
+            Self::NoRuntime(_)
+                | Self::NoHeadset { .. }
+                | Self::InstanceLost { .. }
+                | Self::Call { result: sys::Result::ERROR_RUNTIME_FAILURE, .. }
+        )
     }
 
     /// What is wrong, without advice: for whoever waits already.

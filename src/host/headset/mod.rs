@@ -24,7 +24,7 @@ use crate::sea::SeaAhead;
 use crate::xr::vendor::FoveationLevel;
 use crate::xr::{Demand, EventDataBuffer, HANDS, Notice, XrError};
 use pace::Pace;
-use patience::{RETRY, find_runtime, rest};
+use patience::{Patience, find_runtime};
 use ride::{Person, Ride};
 use stage::Stage;
 use std::path::PathBuf;
@@ -89,8 +89,9 @@ pub fn headset(
     guest: &mut dyn Guest,
 ) -> Result<HeadsetReport, HostError> {
     let (report, ride) = (HeadsetReport::default(), Ride::new(scene)?);
+    let mut patience = Patience::default();
     let (runtime, started) = loop {
-        let Some(runtime) = find_runtime(settings, guest)? else { return Ok(report) };
+        let Some(runtime) = find_runtime(settings, guest, &mut patience)? else { return Ok(report) };
         let open = || open(settings, &runtime, guest);
         match painter::start(scene, settings.look, settings.threads, None, open) {
             Ok(started) => break (runtime, started),
@@ -99,12 +100,11 @@ pub fn headset(
                 guest.closing();
                 match error {
                     HostError::Xr(error) if settings.wait && error.may_pass() => {
-                        eprintln!("{}; waiting", error.what());
+                        if !patience.wait(&error, guest) {
+                            return Ok(report);
+                        }
                     }
                     error => return Err(error),
-                }
-                if !rest(guest) {
-                    return Ok(report);
                 }
             }
         }
@@ -171,19 +171,15 @@ impl Show<'_> {
                         return Err(error);
                     }
                     stage = None;
-                    thread::sleep(RETRY.min(REST * 10 * losses));
+                    thread::sleep(REST * 10 * losses);
                 }
                 Some(error) => {
                     let parted = self.part(world, stage, drew, guest);
                     if !self.settings.wait {
                         return Err(error.into());
                     }
-                    eprintln!("{}", error.what());
                     parted?;
-                    // One that goes as soon as it comes is not asked without a pause.
-                    let waited = drew || rest(guest);
-                    let again = if waited { self.again(guest)? } else { None };
-                    let Some((found, opened)) = again else { return Ok(()) };
+                    let Some((found, opened)) = self.again(&error, guest)? else { return Ok(()) };
                     (world, stage, losses) = (found, Some(opened), 0);
                 }
             }
@@ -210,15 +206,19 @@ impl Show<'_> {
         kept
     }
 
-    /// A runtime that came back, its device and a first session; nothing where the guest would not wait longer.
-    fn again(&mut self, guest: &mut dyn Guest) -> Result<Option<(World, Stage)>, HostError> {
+    /// A runtime that came back after it had `gone`, its device and a first session; nothing where the guest would not wait
+    /// longer.
+    fn again(&mut self, gone: &XrError, guest: &mut dyn Guest) -> Result<Option<(World, Stage)>, HostError> {
+        let mut patience = Patience::default();
+        if !patience.wait(gone, guest) {
+            return Ok(None);
+        }
         loop {
-            let Some(runtime) = find_runtime(self.settings, guest)? else { return Ok(None) };
+            let Some(runtime) = find_runtime(self.settings, guest, &mut patience)? else { return Ok(None) };
             match open(self.settings, &runtime, guest) {
                 Err(HostError::Xr(error)) if error.may_pass() => {
-                    eprintln!("{}; waiting", error.what());
                     guest.closing();
-                    if !rest(guest) {
+                    if !patience.wait(&error, guest) {
                         return Ok(None);
                     }
                 }

@@ -8,19 +8,41 @@ use std::sync::Arc;
 use std::thread;
 use std::time::{Duration, Instant};
 
-/// How long between two looks for a runtime that is not there.
-pub const RETRY: Duration = Duration::from_millis(500);
+/// How long between two looks for a runtime that is not there: twice as long each time, since a runtime's client library may
+/// complain of each look at length.
+const PAUSES: [Duration; 2] = [Duration::from_millis(250), Duration::from_secs(2)];
 
-/// Waits before the next look for what is not there; `false` where `guest` would not wait longer.
-pub fn rest(guest: &mut dyn Guest) -> bool {
-    let begun = Instant::now();
-    while begun.elapsed() < RETRY {
-        if !guest.goes_on() {
-            return false;
-        }
-        thread::sleep(REST);
+/// Looks for something that is not there yet.
+pub struct Patience {
+    pause: Duration,
+    told: String,
+}
+
+impl Default for Patience {
+    fn default() -> Self {
+        Self { pause: PAUSES[0], told: String::new() }
     }
-    true
+}
+
+impl Patience {
+    /// Says what is waited for, once for each reason, and waits before the next look; `false` where `guest` would not wait
+    /// longer.
+    pub fn wait(&mut self, reason: &XrError, guest: &mut dyn Guest) -> bool {
+        let what = reason.what();
+        if self.told != what {
+            eprintln!("{what}; waiting");
+            self.told = what;
+        }
+        let begun = Instant::now();
+        while begun.elapsed() < self.pause {
+            if !guest.goes_on() {
+                return false;
+            }
+            thread::sleep(REST);
+        }
+        self.pause = PAUSES[1].min(2 * self.pause);
+        true
+    }
 }
 
 /// A runtime with a headset; nothing where the guest would not wait longer.
@@ -30,18 +52,12 @@ pub fn rest(guest: &mut dyn Guest) -> bool {
 pub fn find_runtime(
     settings: &HeadsetSettings,
     guest: &mut dyn Guest,
+    patience: &mut Patience,
 ) -> Result<Option<Arc<Runtime>>, HostError> {
-    let mut told = None;
     loop {
         match Runtime::new(settings.validation) {
             Err(error) if settings.wait && error.may_pass() => {
-                // Once, and again where it is another reason: the runtime came, and the headset is not there.
-                let what = error.what();
-                if told.as_ref() != Some(&what) {
-                    eprintln!("{what}; waiting");
-                    told = Some(what);
-                }
-                if !rest(guest) {
+                if !patience.wait(&error, guest) {
                     return Ok(None);
                 }
             }
