@@ -171,8 +171,14 @@ fn masks_origins_and_controllers_may_change() {
     let met = met("14", "mask_changed@4,recentre@6,profile_changed@8");
     met.survived(14, 0);
     assert_eq!(met.calls.count("fault"), 3);
-    // Asked again, not only told.
-    met.calls.come_in_order(&["fault mask_changed 4", "event VISIBILITY_MASK_CHANGED_KHR", "end_frame 5"]);
+    // Both are asked for again, not only told of.
+    met.calls.come_in_order(&[
+        "fault mask_changed 4",
+        "event VISIBILITY_MASK_CHANGED_KHR",
+        "get_visibility_mask 0",
+        "get_visibility_mask 1",
+        "end_frame 5",
+    ]);
     assert_eq!(met.calls.count("event INTERACTION_PROFILE_CHANGED"), 1 + told_by_itself(&met.calls));
     let told = met.said.err.lines().filter(|line| line.starts_with("left hand: ")).count();
     assert_eq!(told, met.calls.count("event INTERACTION_PROFILE_CHANGED"), "{:?}", met.said);

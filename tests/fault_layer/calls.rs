@@ -244,6 +244,20 @@ pub unsafe extern "system" fn locate_views(
     on_session(&line, |next| unsafe { (next.locate_views)(session, info, state, capacity, count, views) })
 }
 
+pub unsafe extern "system" fn get_visibility_mask(
+    session: sys::Session,
+    configuration: sys::ViewConfigurationType,
+    view: u32,
+    kind: sys::VisibilityMaskTypeKHR,
+    mask: *mut sys::VisibilityMaskKHR,
+) -> Xr {
+    let below = with(|layer| layer.visibility_mask.expect("nobody was given this function"));
+    // SAFETY: as above.
+    on_session(&format!("get_visibility_mask {view}"), |_| unsafe {
+        below(session, configuration, view, kind, mask)
+    })
+}
+
 pub unsafe extern "system" fn sync_actions(session: sys::Session, info: *const sys::ActionsSyncInfo) -> Xr {
     let (call, error) = counted("sync_actions", |_, _| None);
     // SAFETY: as above.

@@ -1,9 +1,10 @@
 //! How the loader finds the layer and makes an instance through it.
+use crate::calls;
 use crate::next::{self, Next};
 use crate::state::with;
 use openxr::sys::{self, pfn};
 use std::ffi::{CStr, c_char, c_void};
-use std::mem::MaybeUninit;
+use std::mem::{MaybeUninit, transmute};
 
 /// The loader's first call: both sides say which version of their interface they speak.
 ///
@@ -79,13 +80,21 @@ unsafe extern "system" fn get_instance_proc_addr(
     name: *const c_char,
     function: *mut Option<pfn::VoidFunction>,
 ) -> sys::Result {
-    // SAFETY: a name is a C string, and there is space for the pointer.
+    // SAFETY: a name is a C string, and there is space for the pointer; a function found under a name has its type.
     unsafe {
         if let Some(own) = next::own(CStr::from_ptr(name)) {
             *function = Some(own);
             return sys::Result::SUCCESS;
         }
         let get = with(|layer| layer.next()).get_instance_proc_addr;
-        get(instance, name, function)
+        let result = get(instance, name, function);
+        // Of an extension: only where it is there.
+        if result == sys::Result::SUCCESS && CStr::from_ptr(name) == c"xrGetVisibilityMaskKHR" {
+            let below = transmute::<Option<pfn::VoidFunction>, Option<pfn::GetVisibilityMaskKHR>>(*function);
+            with(|layer| layer.visibility_mask = below);
+            let own: pfn::GetVisibilityMaskKHR = calls::get_visibility_mask;
+            *function = Some(transmute::<pfn::GetVisibilityMaskKHR, pfn::VoidFunction>(own));
+        }
+        result
     }
 }

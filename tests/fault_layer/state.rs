@@ -2,7 +2,7 @@
 use crate::events::Event;
 use crate::next::Next;
 use crate::plan::{Fault, Plan};
-use openxr::sys::{self, Handle as _};
+use openxr::sys::{self, Handle as _, pfn};
 use std::collections::{BTreeMap, VecDeque};
 use std::fs::File;
 use std::io::Write as _;
@@ -26,6 +26,8 @@ pub struct State {
     instance_lost: bool,
     loss_announced: bool,
     session_lost: bool,
+    /// What is below this layer's function, where the extension is enabled.
+    pub visibility_mask: Option<pfn::GetVisibilityMaskKHR>,
     /// Told before whatever the runtime has to tell.
     pub pending: VecDeque<Event>,
     /// When the last frame that was waited for will be seen.
@@ -53,6 +55,7 @@ impl State {
             instance_lost: false,
             loss_announced: false,
             session_lost: false,
+            visibility_mask: None,
             pending: VecDeque::new(),
             display_time: sys::Time::from_nanos(0),
         }
