@@ -106,8 +106,15 @@ pub unsafe extern "system" fn end_session(session: sys::Session) -> Xr {
 }
 
 pub unsafe extern "system" fn request_exit_session(session: sys::Session) -> Xr {
+    let (call, error) = counted("request_exit", |_, _| None);
     // SAFETY: as above.
-    on_session("request_exit", |next| unsafe { (next.request_exit_session)(session) })
+    let result = answer(error, "request_exit", |next| unsafe { (next.request_exit_session)(session) });
+    with(|layer| {
+        if layer.strikes(Fault::LostAtExit, call) {
+            layer.lose_session();
+        }
+    });
+    result
 }
 
 pub unsafe extern "system" fn create_swapchain(

@@ -22,6 +22,8 @@ pub enum Fault {
     EndFails,
     /// `xrEndFrame`: the session is lost, until it is destroyed.
     SessionLost,
+    /// After this `xrRequestExitSession` the session is lost, until it is destroyed.
+    LostAtExit,
     /// After this `xrEndFrame` the state is LOSS_PENDING, and the session is lost once the program knows.
     LossPending,
     /// After this `xrEndFrame` an event tells that the instance will be lost, which it is once no event is left.
@@ -34,7 +36,7 @@ pub enum Fault {
     ProfileChanged,
 }
 
-const NAMES: [(&str, Fault); 14] = [
+const NAMES: [(&str, Fault); 15] = [
     ("no_system", Fault::NoSystem),
     ("create_session_fails", Fault::CreateSessionFails),
     ("wait_fails", Fault::WaitFails),
@@ -44,6 +46,7 @@ const NAMES: [(&str, Fault); 14] = [
     ("wait_image_timeout", Fault::WaitImageTimeout),
     ("end_fails", Fault::EndFails),
     ("session_lost", Fault::SessionLost),
+    ("lost_at_exit", Fault::LostAtExit),
     ("loss_pending", Fault::LossPending),
     ("instance_loss_pending", Fault::InstanceLossPending),
     ("mask_changed", Fault::MaskChanged),
