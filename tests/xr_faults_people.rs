@@ -81,7 +81,7 @@ fn the_focus_goes_to_another_and_comes_back() {
     let (said, frames) = first.end();
     assert_eq!(said.status, Some(0), "{said:?}");
     assert_eq!(frames.last().unwrap()["state"], "FOCUSED");
-    goes_on(&frames.iter().filter(|frame| frame["shown"] == true).cloned().collect::<Vec<_>>(), 90.0);
+    goes_on(&frames.iter().filter(|frame| frame["shown"] == true).cloned().collect::<Vec<_>>());
     assert_eq!(record.objections(), [""; 0]);
     // From the loss of the focus to its return no image is touched, and the sea is not looked at.
     let calls = record.calls().0;

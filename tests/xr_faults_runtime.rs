@@ -39,21 +39,21 @@ fn a_killed_runtime_ends_the_run() {
 #[test]
 fn a_killed_runtime_that_returns_goes_on() {
     let mut service = Service::start(Settings::default());
-    let mut live = Live::start(&service, "swell", swell_xr(&service, &["--xr-wait", "--frames", "24"]));
-    live.until_shown(8);
+    let mut live = Live::start(&service, "swell", swell_xr(&service, &["--xr-wait", "--frames", "40"]));
+    live.until_shown(24);
     service.kill();
     live.until_said("no OpenXR runtime answers (");
     let before = live.frames();
     service.restart();
     let (said, frames) = live.end();
     assert_eq!(said.status, Some(0), "{said:?}");
-    assert!((8..24).contains(&shown(&before)) && shown(&frames) == 24, "{said:?}");
-    goes_on(&frames, 1.0);
-    // The first frame anew is the one after the last that was shown, whatever the runtime's clock says.
+    assert!((24..40).contains(&shown(&before)) && shown(&frames) == 40, "{said:?}");
+    goes_on(&frames);
+    // The first frame anew is the one after the last that was shown, though the runtime's clock begins anew.
     let time = |frame: &Value| frame["time"].as_f64().unwrap();
     let last = before.iter().rfind(|frame| frame["shown"] == true).unwrap();
     let pause = time(&frames[before.len()]) - time(last);
-    assert!(pause > 0.0 && pause < 0.1, "{pause} s of the sea");
+    assert!(pause > 0.0 && pause < 0.5, "{pause} s of the sea");
     let lines = own(&said.err);
     assert!(lines[0].starts_with(GONE) && lines[0].ends_with("); waiting"), "{said:?}");
     assert!(
@@ -61,7 +61,7 @@ fn a_killed_runtime_that_returns_goes_on() {
         "{said:?}"
     );
     assert!(
-        lines[2].starts_with("24 frames shown, ") && lines[2].ends_with("; 1 sessions begun anew"),
+        lines[2].starts_with("40 frames shown, ") && lines[2].ends_with("; 1 sessions begun anew"),
         "{said:?}"
     );
     assert_eq!(lines.len(), 3, "{said:?}");
@@ -151,7 +151,7 @@ fn a_lost_instance_is_begun_anew_where_it_is_waited_for() {
     let record = faults::between(&service, &mut command, "instance_lost@6,instance_loss_pending@14");
     let (said, frames) = ended(&service, command);
     assert_eq!((said.status, shown(&frames)), (Some(0), 20), "{said:?}");
-    goes_on(&frames, 1.0);
+    goes_on(&frames);
     let lines = own(&said.err);
     assert_eq!(
         lines[..2],
@@ -170,7 +170,7 @@ fn a_failure_of_the_runtime_is_waited_for_too() {
     let record = faults::between(&service, &mut command, "create_session_fails,wait_fails@6");
     let (said, frames) = ended(&service, command);
     assert_eq!((said.status, shown(&frames)), (Some(0), 12), "{said:?}");
-    goes_on(&frames, 1.0);
+    goes_on(&frames);
     let lines = own(&said.err);
     let waiting = |doing: &str| format!("{doing}: OpenXR says ERROR_RUNTIME_FAILURE; waiting");
     assert_eq!(lines[..2], [waiting("creating the session"), waiting("waiting for a frame")]);

@@ -40,7 +40,7 @@ impl Met {
     /// All `count` frames were shown, in sessions of which `anew` were begun anew; returns how many were left empty.
     fn survived(&self, count: usize, anew: u32) -> u64 {
         assert_eq!((self.said.status, shown(&self.frames)), (Some(0), count), "{:?}", self.said);
-        goes_on(&self.frames, 1.0);
+        goes_on(&self.frames);
         let lines = own(&self.said.err);
         let lost = lines.iter().filter(|line| **line == "the session was lost; beginning another").count();
         assert!(lost == anew as usize && lines.len() == lost + 1, "{lines:#?}");
