@@ -98,14 +98,17 @@ impl Session {
             queue_family_index: device.queue_family,
             queue_index: 0,
         };
-        let (raw, waiter, stream) = {
+        let (mut raw, waiter, stream) = {
             let _queue = device.queue();
             // SAFETY: the handles belong to one another and to this runtime; the device outlives the session, which keeps
             // an `Arc` of it and is dropped first; the queue is locked wherever the runtime may use it.
             unsafe { runtime.instance.create_session::<xr::Vulkan>(runtime.system, &info) }
                 .doing("creating the session")?
         };
-        let (base, space) = floor(&raw)?;
+        // Names are for captures and messages: one that is refused is missed by nobody.
+        let _unnamed = raw.set_name("ocean");
+        let (mut base, space) = floor(&raw)?;
+        let _unnamed = base.set_name("play space");
         let empty = sys::View {
             ty: sys::View::TYPE,
             next: std::ptr::null_mut(),

@@ -132,6 +132,13 @@ impl Swapchain {
             ready: false,
             device: Arc::clone(&session.device),
         };
+        let name = match info.usage {
+            Usage::Color { .. } => "colour",
+            Usage::Depth => "depth",
+            Usage::Motion => "motion",
+            Usage::MotionDepth => "motion's depth",
+        };
+        let _unnamed = swapchain.raw.set_name(name);
         swapchain.list_images(&instance)?;
         Ok(swapchain)
     }
