@@ -3,6 +3,7 @@
 mod support;
 
 use glam::{DVec3, Quat, Vec3};
+use support::faults;
 use support::headset::{Seen, Watcher};
 use support::monado::{Devices, Service, Settings};
 use support::program::run;
@@ -78,6 +79,49 @@ fn heading(scene: &Scene) -> Quat {
 fn middle(seen: &Seen) -> DVec3 {
     (seen.eyes[0].position + seen.eyes[1].position) * 0.5
 }
+
+/// Not in the middle of the raft, and not looking ahead.
+fn aside() -> Body {
+    Body { head: Pose::at(0.4, 1.6, -0.3).turned(0.6), ..Body::standing() }
+}
+
+#[test]
+fn a_runtime_that_recentres_brings_the_raft_under_the_person() {
+    let service = Service::start(Settings { devices: Devices::Remote, ..Settings::default() });
+    let _remote = Remote::start(&service, |_| aside());
+    let mut command = service.reexec("recentred");
+    let record = faults::between(&service, &mut command, "recentre@12");
+    let said = run(&mut command);
+    print!("{}", said.out);
+    assert!(said.status == Some(0) && said.out.contains("1 passed"), "{said:?}");
+    assert_eq!(record.calls().count("fault recentre"), 1);
+}
+
+#[test]
+#[ignore = "runs in a process of its own"]
+fn recentred() {
+    let scene = still();
+    let mut watcher = Watcher::new(1);
+    watcher.watch(&scene, 24);
+    // From the deck's middle to under the head, and the cosine between the raft's front and the gaze.
+    let raft = |seen: &Seen| {
+        let planks = &seen.solids[..PLANKS];
+        let deck = planks.iter().map(|plank| plank.position).sum::<DVec3>() / PLANKS as f64;
+        let flat = |v: Vec3| v.with_y(0.0).normalize();
+        let along = flat(planks[0].axes.z_axis).dot(flat(seen.eyes[0].axes.z_axis));
+        ((middle(seen) - deck).with_y(0.0).length(), along)
+    };
+    let (first, last) = (&watcher.seen[3], watcher.seen.last().unwrap());
+    let (before, after) = (raft(first), raft(last));
+    println!("from the middle, and the cosine to the front: {before:?}, then {after:?}");
+    assert!((before.0 - 0.5).abs() < 0.02 && (before.1 - 0.6f32.cos()).abs() < 0.01, "{before:?}");
+    assert!(after.0 < 0.02 && after.1 > 0.999, "{after:?}");
+    // The raft moves, and not the view.
+    assert!((middle(last) - middle(first)).length() < 0.002);
+}
+
+/// A raft's planks come first of its solids, and the scene has no buoys before it.
+const PLANKS: usize = swell::draw::RAFT_SOLIDS - 4;
 
 #[test]
 fn trigger_and_thumbstick_reach_their_actions() {

@@ -132,8 +132,8 @@ impl Companion {
         let [width, height] = picture.info.extent;
         let view = 4 * width as usize * height as usize;
         let (views, pixels) = match self.settings.mirror {
-            Mirror::Left => (1, pixels[..view].to_vec()),
-            Mirror::Right => (1, pixels[view..].to_vec()),
+            Mirror::Left => (1, pixels.into_iter().take(view).collect()),
+            Mirror::Right => (1, pixels.into_iter().skip(view).collect()),
             Mirror::Both | Mirror::None => (VIEWS as u32, pixels),
         };
         self.screenshots.write(path, picture.info.extent, views, pixels);

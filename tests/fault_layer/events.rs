@@ -64,7 +64,7 @@ impl Event {
                         ty: sys::EventDataReferenceSpaceChangePending::TYPE,
                         next,
                         session,
-                        reference_space_type: sys::ReferenceSpaceType::LOCAL,
+                        reference_space_type: sys::ReferenceSpaceType::LOCAL_FLOOR,
                         change_time: time,
                         pose_valid: sys::TRUE,
                         pose_in_previous_space: sys::Posef {

@@ -14,8 +14,7 @@ pub fn parts(pose: xr::Pose) -> (DVec3, Quat) {
     (Vec3::from(pose.position).as_dvec3(), orientation)
 }
 
-/// The head: between the eyes, turned as the left one is. Canted displays turn their eyes about the same vertical, by
-/// opposite angles that `forward` evens out.
+/// The head: between the eyes, turned half way from one to the other, since canted displays turn them by opposite angles.
 pub fn head(views: &[View; VIEWS]) -> Head {
     let [(left, a), (right, b)] = views.map(|view| parts(view.pose));
     Head::new((left + right) * 0.5, a.slerp(b, 0.5))
