@@ -17,11 +17,11 @@ fn projection(left: f32, right: f32, down: f32, up: f32, near: f32) -> Mat4 {
 }
 
 fn random_view(random: &mut Random, eye_offset: f32) -> Mat4 {
-    let mut tangent = || random.range(0.3, 1.4) as f32;
+    let mut tangent = || random.between(0.3, 1.4) as f32;
     let projection = projection(-tangent(), tangent(), -tangent(), tangent(), 0.1);
-    let yaw = Quat::from_rotation_y(random.range(-3.2, 3.2) as f32);
-    let pitch = Quat::from_rotation_x(random.range(-1.5, 0.8) as f32);
-    let roll = Quat::from_rotation_z(random.range(-0.4, 0.4) as f32);
+    let yaw = Quat::from_rotation_y(random.between(-3.2, 3.2) as f32);
+    let pitch = Quat::from_rotation_x(random.between(-1.5, 0.8) as f32);
+    let roll = Quat::from_rotation_z(random.between(-0.4, 0.4) as f32);
     let pose = Mat4::from_rotation_translation(yaw * pitch * roll, yaw * vec3(eye_offset, 0.0, 0.0));
     projection * pose.inverse()
 }
@@ -34,7 +34,7 @@ fn projects_inside(view_projection: Mat4, position: Vec3) -> bool {
 
 fn random_settings(random: &mut Random, case: usize) -> LodSettings {
     let base = settings([512.0, 4096.0, 8192.0][case % 3], QUALITIES[case % 4], None);
-    LodSettings { max_height: Some(random.range(0.0, 25.0)), reach: random.range(0.0, 40.0), ..base }
+    LodSettings { max_height: Some(random.between(0.0, 25.0)), reach: random.between(0.0, 40.0), ..base }
 }
 
 #[test]
@@ -46,7 +46,7 @@ fn no_patch_with_a_visible_point_is_culled() {
         let mut tree = Quadtree::new(&settings).unwrap();
         for _ in 0..4 {
             let mut eye = random.viewer();
-            eye.y = 10.0_f64.powf(random.range(0.0, 2.0));
+            eye.y = 10.0_f64.powf(random.between(0.0, 2.0));
             let views = [random_view(&mut random, -0.03), random_view(&mut random, 0.03)];
             tree.select(eye, &views.map(Frustum::from_view_projection));
             let selection = tree.selection();
@@ -60,7 +60,7 @@ fn no_patch_with_a_visible_point_is_culled() {
                     let mut extreme = |half: f64| match random.below(3) {
                         0 => half,
                         1 => -half,
-                        _ => random.range(-half, half),
+                        _ => random.between(-half, half),
                     };
                     let point = dvec3(
                         origin.x + centre.x + extreme(0.5 * size) + extreme(settings.reach),
@@ -105,9 +105,9 @@ fn planes_agree_with_the_matrix() {
         let frustum = Frustum::from_view_projection(view);
         for _ in 0..100 {
             let point = vec3(
-                random.range(-500.0, 500.0) as f32,
-                random.range(-50.0, 50.0) as f32,
-                random.range(-500.0, 500.0) as f32,
+                random.between(-500.0, 500.0) as f32,
+                random.between(-50.0, 50.0) as f32,
+                random.between(-500.0, 500.0) as f32,
             );
             let clip = view * point.extend(1.0);
             let margin = (clip.w - clip.x.abs()).min(clip.w - clip.y.abs()).min(clip.w - clip.z);

@@ -84,8 +84,8 @@ fn dividing_a_node_changes_no_triangle() {
         let step = snap_step(size, cells);
         let (mut clean, mut beside_forced, mut popped) = (0, 0, 0);
         for _ in 0..(if cells == 64 { 300 } else { 60 }) {
-            let height = 10.0_f64.powf(random.range(0.0, 2.5));
-            let mut place = |height| dvec3(random.range(0.0, step), height, random.range(0.0, step));
+            let height = 10.0_f64.powf(random.between(0.0, 2.5));
+            let mut place = |height| dvec3(random.between(0.0, step), height, random.between(0.0, step));
             let (a, b) = (place(height), place(height * 1.2));
             let ends = [a, b].map(|viewer| Drawn::new(&mut tree, viewer).divided);
             for &node in ends[0].symmetric_difference(&ends[1]) {
@@ -122,7 +122,7 @@ fn a_slide_is_over_before_the_next_begins() {
     for _ in 0..200_000 {
         let tau = [1.0, 1.2, 1.5, 2.0][random.below(4) as usize];
         let node = Node { level: 3, x: 4, y: 4 };
-        let mut place = || random.range(-300.0, 300.0);
+        let mut place = || random.between(-300.0, 300.0);
         let viewer = dvec3(place(), place().abs(), place());
         let ranges = Ranges::new(viewer, 1024.0, tau);
         let weight = ranges.morph(node);

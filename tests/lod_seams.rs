@@ -107,7 +107,7 @@ fn any_size_is_watertight_to_the_last_place() {
     let mut random = Random(2);
     for quality in QUALITIES {
         for _ in 0..20 {
-            let size = random.range(256.0, 8192.0);
+            let size = random.between(256.0, 8192.0);
             let mut tree = tree(size, quality, None);
             let edges = EdgeVertices::new(tree.preset().cells);
             let tolerance = 2.0 * f32::EPSILON * (size / 2.0) as f32;

@@ -32,15 +32,15 @@ fn the_plane_outside_is_covered_exactly_once() {
         let triangles = triangles(size, extent);
         let inner = 0.5 * SKIRT_INNER * size;
         for _ in 0..20_000 {
-            let far = inner * 10.0_f64.powf(random.range(-0.5, 6.0));
-            let p = dvec3(random.range(-far, far), random.range(-far, far), 1.0);
+            let far = inner * 10.0_f64.powf(random.between(-0.5, 6.0));
+            let p = dvec3(random.between(-far, far), random.between(-far, far), 1.0);
             let covers = triangles.iter().filter(|&&t| holds(t, p)).count();
             let outside = p.x.abs().max(p.y.abs()) > inner * (1.0 + 1e-6);
             assert_eq!(covers, usize::from(outside), "{p} of {size}");
         }
         // The horizon itself: every direction but the four mitres lies on one outer side.
         for _ in 0..1_000 {
-            let angle = random.range(0.0, std::f64::consts::TAU);
+            let angle = random.between(0.0, std::f64::consts::TAU);
             let p = dvec3(angle.cos() * 1.0e9, angle.sin() * 1.0e9, 1.0);
             assert_eq!(triangles.iter().filter(|&&t| holds(t, p)).count(), 1);
         }
