@@ -6,7 +6,10 @@ use glam::{DVec3, Mat3, Vec3};
 use support::picture::Picture;
 use support::stage::{Stage, eye, seen_at, shipped};
 use swell::draw::{Buoy, Eye, Fov, Look, MOST_SOLIDS, Pose, Raft, Shape, Solid};
+use swell::host::marker;
+use swell::raft::BuoySettings;
 use swell::scene::Scene;
+use swell::sea::Sea;
 
 const TIME: f64 = 12.5;
 const SIZE: [u32; 2] = [240, 160];
@@ -165,4 +168,23 @@ fn only_water_has_solids_and_there_are_not_too_many() {
     stage.host.set_scenery(&[], 0.0);
     stage.frame(TIME, &[]);
     assert_eq!(stage.counts, before);
+}
+
+#[test]
+fn the_buoys_of_a_scene_float_in_its_pictures() {
+    let plain = shipped("calm");
+    let at = [plain.camera.eye[0] + 0.5, plain.camera.eye[2] - 6.0];
+    let buoy = BuoySettings { at, radius: 0.5, color: [0.7, 0.05, 0.02], height: 1.5 };
+    let mut scene = plain.clone();
+    scene.buoys = vec![buoy];
+    let mut sea = Sea::new(&scene.sea).unwrap();
+    let mut maps = sea.new_maps();
+    sea.step(TIME, &mut maps).unwrap();
+    let from = eye(DVec3::from(plain.camera.eye), [0.0, -0.3, 0.0], Fov::symmetric(1.0, 1.0));
+    let mut without = Stage::new(&plain, SIZE, 1, Look::Water, TIME);
+    let empty = without.frame(TIME, &[from]);
+    without.host.set_scenery(&marker(&buoy, &maps).solids(), 0.0);
+    let placed = without.frame(TIME, &[from]);
+    assert!(placed != empty, "the buoy is not in view");
+    assert!(Stage::new(&scene, SIZE, 1, Look::Water, TIME).frame(TIME, &[from]) == placed);
 }

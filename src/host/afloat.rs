@@ -27,6 +27,11 @@ impl Afloat {
         }
     }
 
+    /// Adds what somebody else has placed.
+    pub fn add(&mut self, solids: &[Solid]) {
+        self.solids.extend_from_slice(solids);
+    }
+
     /// Adds the raft, its deck's middle at `pose`, for a viewer whose head is at `head`.
     pub fn raft(&mut self, settings: &RaftSettings, pose: crate::raft::Pose, head: DVec3) {
         #[expect(clippy::cast_possible_truncation, reason = "metres of a raft")]

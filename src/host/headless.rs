@@ -1,5 +1,6 @@
 //! Frames without a screen: the frame loop around an offscreen target.
 
+use super::afloat::Afloat;
 use super::painter::{self, Painter};
 use crate::draw::{self, DrawCounts, Eye, HiddenMesh, Look, Moment, Solid};
 use crate::gpu::{
@@ -7,6 +8,7 @@ use crate::gpu::{
     PhysicalDevice, Target, TargetInfo, Turn, Validation,
 };
 use crate::host::HostError;
+use crate::raft::BuoySettings;
 use crate::scene::Scene;
 use crate::sea::SeaAhead;
 use ash::vk;
@@ -48,6 +50,9 @@ pub struct Headless {
     /// Dropped before what its frames use, since dropping it waits for them.
     painter: Painter,
     eyes: Vec<Eye>,
+    buoys: Vec<BuoySettings>,
+    afloat: Afloat,
+    /// What floats besides the scene's buoys.
     solids: Vec<Solid>,
     vignette: f32,
     offscreen: Offscreen,
@@ -80,6 +85,8 @@ impl Headless {
             sea: started.sea,
             painter: started.painter,
             eyes,
+            buoys: scene.buoys.clone(),
+            afloat: Afloat::default(),
             solids: Vec::new(),
             vignette: 0.0,
             offscreen: started.opened,
@@ -93,7 +100,7 @@ impl Headless {
         }
     }
 
-    /// Shows `solids`, through a vignette closed by `vignette` (0..=1), from the next frame on.
+    /// Shows `solids` besides the scene's buoys, through a vignette closed by `vignette` (0..=1), from the next frame on.
     pub fn set_scenery(&mut self, solids: &[Solid], vignette: f32) {
         self.solids.clear();
         self.solids.extend_from_slice(solids);
@@ -128,7 +135,10 @@ impl Headless {
             let following = times.next();
             let maps = self.sea.next(following)?;
             let Offscreen { readback, target } = &self.offscreen;
-            let moment = Moment { eyes: &self.eyes, maps, solids: &self.solids, vignette: self.vignette };
+            self.afloat.begin(&self.buoys, maps);
+            self.afloat.add(&self.solids);
+            let solids = self.afloat.solids();
+            let moment = Moment { eyes: &self.eyes, maps, solids, vignette: self.vignette };
             drawn[slot] = self.painter.paint(index, (target, Turn::default()), moment, |commands| {
                 target.copy_to(commands, &readback[slot]);
             })?;
