@@ -98,7 +98,7 @@ impl Client {
                 }
                 xr::Event::InstanceLossPending(_) => "instance loss pending".to_owned(),
                 xr::Event::ReferenceSpaceChangePending(change) => {
-                    assert_eq!(change.reference_space_type(), xr::ReferenceSpaceType::LOCAL);
+                    assert_eq!(change.reference_space_type(), xr::ReferenceSpaceType::LOCAL_FLOOR);
                     assert!(change.pose_valid());
                     format!("recentre {}", change.pose_in_previous_space().position.x)
                 }
