@@ -2,7 +2,8 @@
 mod sea_common;
 use proptest::prelude::*;
 use sea_common::{cascades, maps, settings};
-use swell::sea::foam::{Fading, MAX_COMPRESSION, Memory, compression, fade, foam};
+use swell::sea::foam::{self, Fading, MAX_COMPRESSION, Memory, foam};
+use swell::sea::simd::{Float, Isa, Kernel, MAX_LANES, Simd};
 use swell::sea::{FoamSettings, Sea, SeaSettings, Spectrum};
 
 fn steep() -> SeaSettings {
@@ -24,7 +25,7 @@ proptest! {
         let last = f64::from(last) * 0.05;
         let settings = steep();
         let mut sea = Sea::new(&settings).expect("valid");
-        let mut wandered = sea.new_maps();
+        let mut wandered = sea.new_maps_with_planes();
         for time in times {
             sea.step(time, &mut wandered).expect("a step");
         }
@@ -40,7 +41,7 @@ fn what_a_tick_left_is_gone_after_the_window() {
     for (fade_time, period) in [(0.3, 200.0), (4.0, 200.0), (60.0, 200.0), (600.0, 33.3)] {
         let settings = FoamSettings { fade_time, ..FoamSettings::default() };
         let fading = Fading::new(&settings, period).expect("a memory");
-        let left = |ticks| (0..ticks).fold(MAX_COMPRESSION, |m, _| fade(m, fading.decay, 0.0));
+        let left = |ticks| (0..ticks).fold(MAX_COMPRESSION, |m, _| Isa::best().run(Fade(m, fading.decay)));
         assert_eq!(left(fading.window), 0.0);
         assert!(left(fading.window - 1) > 0.0);
         let seconds = fading.window as f64 * period / fading.ticks as f64;
@@ -53,12 +54,13 @@ fn what_a_tick_left_is_gone_after_the_window() {
 fn gaps_longer_than_the_memory_forget_it() {
     let fading =
         Fading::new(&FoamSettings { fade_time: 1.0, ..FoamSettings::default() }, 200.0).expect("a memory");
-    let mut memory = Memory { texels: vec![1.0; 4], tick: Some(1990) };
+    let mut memory = Memory { tick: Some(1990), ..Memory::new(2) };
+    memory.texels.fill(1.0);
     assert_eq!(memory.begin(1995, &fading), 5);
     assert_eq!(memory.begin(4, &fading), 14, "across the end of the loop");
-    assert_eq!(memory.texels, [1.0; 4]);
+    assert_eq!(*memory.texels, [1.0; 4]);
     assert_eq!(memory.begin(1000, &fading), fading.window);
-    assert_eq!(memory.texels, [0.0; 4]);
+    assert_eq!(*memory.texels, [0.0; 4]);
 }
 
 #[test]
@@ -85,6 +87,36 @@ fn foam_lingers_where_the_surface_was_squeezed_and_fades() {
     assert!(found.iter().zip(&expected).all(|(a, b)| (a - b).abs() < 2e-3), "memory");
     let [kept, now] = [found, at(&forgetful, 8.03)].map(|values| values.iter().sum::<f32>());
     assert!(kept > 1.1 * now, "nothing lingers: {kept}, {now} without a memory");
+}
+
+/// The kernels' arithmetic, one lane of it.
+struct Compression(f32, f32);
+
+impl Kernel for Compression {
+    type Output = f32;
+    #[inline(always)]
+    fn run<S: Simd>(self, simd: S) -> f32 {
+        let mut lanes = [0.0; MAX_LANES];
+        let breaking = simd.splat(self.1);
+        foam::compression(simd, simd.splat(self.0), breaking, breaking).store(&mut lanes);
+        lanes[0]
+    }
+}
+
+struct Fade(f32, f32);
+
+impl Kernel for Fade {
+    type Output = f32;
+    #[inline(always)]
+    fn run<S: Simd>(self, simd: S) -> f32 {
+        let mut lanes = [0.0; MAX_LANES];
+        foam::fade(simd.splat(self.0), simd.splat(self.1), simd.splat(0.0)).store(&mut lanes);
+        lanes[0]
+    }
+}
+
+fn compression(jacobian: f32, breaking: f32) -> f32 {
+    Isa::best().run(Compression(jacobian, breaking))
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! The laws every sea obeys, on the maps of each spectrum: they decide the signs that the paper prints both ways.
 mod sea_common;
-use sea_common::{SPECTRA, cascades, correlation, maps, relative_error, rms, settings};
+use sea_common::{SPECTRA, cascades, correlation, maps, planes, relative_error, rms, settings};
 use std::f64::consts::{FRAC_PI_2, TAU};
 use swell::sea::reference::{displacement::displacement, fft};
 use swell::sea::{CascadeMaps, Sea, SeaSettings, expected_variance};
@@ -27,7 +27,7 @@ fn law_1_heights_are_real() {
         // The engine keeps no imaginary part: it must agree with the real part of the full transform.
         let map = &maps(&sea, 3.7).cascades[0];
         let truth = |i: usize| field.iter().map(|d| d[i]).collect::<Vec<_>>();
-        for (plane, i) in [(&map.du, 0), (&map.height, 1), (&map.dv, 2)] {
+        for (plane, i) in [(&planes(map).du, 0), (&planes(map).height, 1), (&planes(map).dv, 2)] {
             let error = relative_error(plane, &truth(i));
             assert!(error < 1e-6, "{spectrum:?}, component {i}: {error:e}");
         }
@@ -37,7 +37,7 @@ fn law_1_heights_are_real() {
 /// Mean displacement per second, along world (x, z), of the pattern of `map` at a later time.
 fn drift(before: &CascadeMaps, after: &CascadeMaps, seconds: f64) -> [f64; 2] {
     let n = before.resolution;
-    let (a, b) = (forward(&before.height, n), forward(&after.height, n));
+    let (a, b) = (forward(&planes(before).height, n), forward(&planes(after).height, n));
     // Every wave's phase advance is -k.c t; weighted by energy this gives the mean phase velocity along u and v.
     let (mut velocity, mut weight) = ([0.0; 2], 0.0);
     for at in 0..n * n {
@@ -87,10 +87,10 @@ fn law_3_points_bunch_at_crests() {
         let n = map.resolution;
         let slope = |at: usize| {
             let (row, c) = (at / n * n, at % n);
-            f64::from(map.du[row + (c + 1) % n]) - f64::from(map.du[row + (c + n - 1) % n])
+            f64::from(planes(map).du[row + (c + 1) % n]) - f64::from(planes(map).du[row + (c + n - 1) % n])
         };
         let slopes: Vec<_> = (0..n * n).map(slope).collect();
-        let heights: Vec<_> = map.height.iter().map(|&h| f64::from(h)).collect();
+        let heights: Vec<_> = planes(map).height.iter().map(|&h| f64::from(h)).collect();
         let jacobian: Vec<_> = map.gradient[..n * n].iter().map(|texel| f64::from(texel[2])).collect();
         let found = correlation(&heights, &slopes);
         assert!(found < -0.7, "{spectrum:?}: height and dDx/dx correlate by {found}");
@@ -106,8 +106,8 @@ fn law_4_displacement_is_the_riesz_transform_of_height() {
         let choppiness = sea.cascades[0].choppiness;
         let map = &maps(&sea, 11.3).cascades[0];
         let n = map.resolution;
-        let height = forward(&map.height, n);
-        for (axis, plane) in [&map.du, &map.dv].into_iter().enumerate() {
+        let height = forward(&planes(map).height, n);
+        for (axis, plane) in [&planes(map).du, &planes(map).dv].into_iter().enumerate() {
             let spectrum: Vec<_> = height
                 .iter()
                 .enumerate()
@@ -149,7 +149,7 @@ fn law_6_the_variance_is_the_spectrums_sum() {
         let variances: Vec<f64> = (0..SEEDS)
             .map(|seed| {
                 sea.cascades[0].seed = seed;
-                rms(&maps(&sea, 1.0).cascades[0].height).powi(2)
+                rms(&planes(&maps(&sea, 1.0).cascades[0]).height).powi(2)
             })
             .collect();
         let mean = variances.iter().sum::<f64>() / SEEDS as f64;
@@ -170,14 +170,20 @@ fn law_7_doubling_the_amplitude_doubles_and_no_wind_is_flat() {
         sea.cascades[0].amplitude *= 2.0;
         let double = maps(&sea, 6.0);
         let (single, double) = (&single.cascades[0], &double.cascades[0]);
-        for (a, b) in [(&single.du, &double.du), (&single.height, &double.height), (&single.dv, &double.dv)] {
+        for (a, b) in [
+            (&planes(single).du, &planes(double).du),
+            (&planes(single).height, &planes(double).height),
+            (&planes(single).dv, &planes(double).dv),
+        ] {
             assert!(rms(a) > 0.005);
             assert!(a.iter().zip(b).all(|(a, b)| (2.0 * a - b).abs() <= 1e-6 * b.abs().max(0.01)));
         }
         sea.cascades[0].wind_speed = 0.0;
         let flat = maps(&sea, 6.0);
         let flat = &flat.cascades[0];
-        assert!(flat.height.iter().chain(&flat.du).chain(&flat.dv).all(|&v| v == 0.0));
+        assert!(
+            planes(flat).height.iter().chain(&planes(flat).du).chain(&planes(flat).dv).all(|&v| v == 0.0)
+        );
         assert!(flat.gradient.iter().all(|texel| texel[..3] == [128, 128, 255]));
         assert!(flat.displacement.iter().flatten().all(|v| v.to_f32() == 0.0));
     }

@@ -1,10 +1,13 @@
 //! Each stage against its scalar reference and the printed equations.
 mod sea_common;
 use half::f16;
-use sea_common::{SPECTRA, cascades, maps, settings};
-use swell::sea::gradient::{normal_length, smoothness};
+use sea_common::{SPECTRA, cascades, maps, planes, settings};
+use swell::sea::fft::layout::{Layout, TILE};
+use swell::sea::gradient::normal_length;
+use swell::sea::mips::{CHANNELS, pack};
 use swell::sea::philox::{gaussian, philox4x32};
 use swell::sea::reference::{displacement::displacement, gradient, mips, spectrum as reference};
+use swell::sea::simd::{Float, Isa, Kernel, MAX_LANES, Simd};
 use swell::sea::spectrum::{PackedSpectrum, power, signed};
 use swell::sea::{
     CascadeSettings, NormalKind, Spectrum, expected_variance, mip_levels, mip_offset, split_bands,
@@ -40,25 +43,30 @@ fn packed_amplitudes_are_the_references() {
         let sea = settings(spectrum);
         let cascade = &sea.cascades[0];
         let n = cascade.resolution;
-        let packed = PackedSpectrum::new(cascade, sea.gravity, sea.repeat_period, 3).expect("a spectrum");
+        let layout = Layout::new(n).expect("a layout");
+        let packed =
+            PackedSpectrum::new(cascade, sea.gravity, sea.repeat_period, 3, layout).expect("a spectrum");
         let waves = reference::spectrum(cascade, sea.gravity, sea.repeat_period, 3);
         let largest = waves.iter().map(|w| w.along[0].abs()).fold(0.0, f64::max);
-        for kv in 0..n / 2 {
-            for ku in 0..n {
-                let modes = &packed.modes[kv / 8 * n + ku];
-                let lane = kv % 8;
+        for ku in 0..n / 2 {
+            let (tile, lane) = (packed.tile(ku / TILE), ku % TILE);
+            assert_eq!(tile.first_ku, ku - lane);
+            for kv in 0..n {
                 let centred = |i: usize| (signed(i, n) + n as i32 / 2) as usize;
                 let wave = &waves[centred(kv) * n + centred(ku)];
                 let [[a, b], [c, d]] = [wave.along, wave.against];
                 let truth = [a + c, b + d, b - d, c - a];
-                let got =
-                    [modes.cos_re, modes.cos_im, modes.sin_re, modes.sin_im].map(|m| f64::from(m[lane]));
+                let got = [0, 1, 2, 3].map(|part| f64::from(tile.amplitudes[(4 * kv + part) * TILE + lane]));
                 assert!(truth.iter().zip(got).all(|(t, g)| (t - g).abs() < 1e-6 * largest), "{ku} {kv}");
                 if got != [0.0; 4] {
-                    let omega = f64::from(packed.harmonics[modes.harmonic[lane] as usize])
+                    let at = kv.min(n - kv) * TILE + lane;
+                    let omega = f64::from(packed.harmonics[usize::from(tile.harmonic[at])])
                         * std::f64::consts::TAU
                         / sea.repeat_period;
                     assert!((omega - wave.omega).abs() < 1e-9, "omega at {ku} {kv}");
+                    let length = (ku as f64).hypot(f64::from(signed(kv, n)));
+                    let inverse = f64::from(tile.inverse[at]);
+                    assert!((inverse * length / cascade.choppiness - 1.0).abs() < 1e-7, "1/k at {ku} {kv}");
                 }
             }
         }
@@ -161,30 +169,50 @@ fn gradients_and_bytes_are_the_references() {
     }
 }
 
+/// A texel of a mip level as bytes.
+struct Pack([f32; 4], f32);
+
+impl Kernel for Pack {
+    type Output = [u8; 4];
+    #[inline(always)]
+    fn run<S: Simd>(self, simd: S) -> [u8; 4] {
+        let mut texel = [simd.splat(0.0); CHANNELS];
+        for (channel, value) in self.0.into_iter().enumerate() {
+            texel[channel] = simd.splat(value);
+        }
+        let mut bytes = [[[0; 4]; MAX_LANES]; 2];
+        let packed = pack(simd, [texel; 2], simd.splat(self.1), simd.splat(127.5));
+        for (half, packed) in packed.into_iter().enumerate() {
+            S::F32::store_bytes(packed, &mut bytes[half]);
+        }
+        assert!(bytes.iter().flat_map(|bytes| &bytes[..S::LANES]).all(|texel| *texel == bytes[0][0]));
+        bytes[0][0]
+    }
+}
+
 #[test]
 fn packing_is_as_printed() {
-    let pack = |texel| {
-        // Nine: one block of eight lanes and a rest.
-        let mut bytes = [[0; 4]; 9];
-        swell::sea::gradient::pack(&[texel; 9], &mut bytes);
-        assert_eq!(bytes[0], bytes[8]);
-        bytes[0]
-    };
-    assert_eq!(pack([0.0, 1.0, 0.0, 1.0]), [128, 128, 255, 255]);
-    assert_eq!(pack([1.0, 0.0, 0.0, -1.0]), [255, 128, 0, 255]);
-    assert_eq!(pack([0.0, 0.0, -0.5, 0.0]), [128, 0, 128, 0]);
-    assert_eq!(pack([0.0, 0.0, 0.0, f32::INFINITY]), [128, 128, 255, 0]);
+    for isa in Isa::available() {
+        let pack = |texel, length| isa.run(Pack(texel, length));
+        assert_eq!(pack([0.0, 1.0, 0.0, 1.0], 1.0), [128, 128, 255, 255], "{isa}");
+        assert_eq!(pack([1.0, 0.0, 0.0, -1.0], 1.0), [255, 128, 0, 255], "{isa}");
+        assert_eq!(pack([0.0, 0.0, -0.5, 0.0], 1.0), [128, 0, 128, 0], "{isa}");
+        assert_eq!(pack([0.0, 0.0, 0.0, f32::INFINITY], 1.0), [128, 128, 255, 0], "{isa}");
+        // Lengths of 2/3 and less are as rough as water gets. At t = 1/2: r = 1 - 0.5 (0.85 + 0.075) = 0.5375.
+        assert_eq!(pack([0.0, 0.66, 0.0, 0.0], 1.0)[3], 0, "{isa}");
+        assert_eq!(
+            pack([0.0, 1.0, 0.0, 0.0], 5.0 / 6.0)[3],
+            (255.0 * (1.0 - 0.5375_f32.sqrt())).round() as u8
+        );
+    }
     assert_eq!([normal_length(0.0), normal_length(1.0)], [1.0, 0.5]);
-    assert_eq!([smoothness(1.0), smoothness(0.66), smoothness(0.1)], [1.0, 0.0, 0.0]);
-    // t = 1/2: r = 1 - 0.5 (0.85 + 0.075) = 0.5375.
-    assert!((smoothness(5.0 / 6.0) - (1.0 - 0.5375_f32.sqrt())).abs() < 1e-6);
 }
 
 #[test]
 fn displacement_mips_average_all_four_channels() {
     for map in &maps(&cascades(), 2.0).cascades {
         let n = map.resolution;
-        let planes = [&map.du, &map.height, &map.dv];
+        let planes = [&planes(map).du, &planes(map).height, &planes(map).dv];
         for (at, texel) in map.displacement[..n * n].iter().enumerate() {
             assert!((0..3).all(|i| texel[i] == f16::from_f32(planes[i][at])));
         }

@@ -33,9 +33,9 @@ impl Phase {
         if index + 1 < count && Self::of_tick(index + 1, count) <= self { index + 1 } else { index }
     }
 
-    /// Fraction of a turn, 0..1, by which harmonic `harmonic` has advanced.
-    pub fn turns(self, harmonic: u32) -> f64 {
-        (self.0.wrapping_mul(u64::from(harmonic)) % WHOLE) as f64 / WHOLE as f64
+    /// By how many 2^-32 of a turn harmonic `harmonic` has advanced, whole turns left out, rounded down.
+    pub fn turned(self, harmonic: u32) -> u32 {
+        ((self.0.wrapping_mul(u64::from(harmonic)) % WHOLE) >> (DIGITS - u32::BITS)) as u32
     }
 
     /// Fraction of the period since `earlier`, which must not be later.
@@ -69,8 +69,8 @@ mod tests {
     #[test]
     fn harmonics_turn_proportionally() {
         let phase = Phase::at(12.5, 200.0);
-        assert_eq!(phase.turns(1), 0.0625);
-        assert_eq!(phase.turns(17), 0.0625);
-        assert_eq!(phase.turns(3), 0.1875);
+        assert_eq!(phase.turned(1), 1 << 28);
+        assert_eq!(phase.turned(17), 1 << 28);
+        assert_eq!(phase.turned(3), 3 << 28);
     }
 }

@@ -1,59 +1,163 @@
 //! Waves at a moment: eqs (19)-(24), and the spectra of the horizontal displacement.
 use super::{
     clock::Phase,
-    fft::{LANES, Lane},
-    spectrum::{Modes, PackedSpectrum},
+    fft::{
+        butterfly::Complex,
+        columns::{Rows, Source, StoredRows},
+        layout::{Layout, ROW, TILE},
+    },
+    simd::{Float, Simd, Strided, StridedMut},
+    spectrum::SpectrumTile,
 };
+use std::f64::consts::TAU;
 
-/// Fills `table` with (cos, sin) of every harmonic of `spectrum` at `phase`: far fewer than there are wave vectors.
-///
-/// # Panics
-/// When `table` is shorter than the spectrum's `harmonics`.
-pub fn rotations(spectrum: &PackedSpectrum, phase: Phase, table: &mut [[f32; 2]]) {
-    for (entry, &harmonic) in table[..spectrum.harmonics.len()].iter_mut().zip(&spectrum.harmonics) {
-        let (sin, cos) = libm::sincos(std::f64::consts::TAU * phase.turns(harmonic));
-        *entry = [cos as f32, sin as f32];
+/// Fills `table` with (cos, sin) of every one of `harmonics` at `phase`: far fewer than there are wave vectors.
+pub fn rotations(harmonics: &[u32], phase: Phase, table: &mut [[f32; 2]]) {
+    for (entry, &harmonic) in table.iter_mut().zip(harmonics) {
+        *entry = cos_sin(phase.turned(harmonic));
     }
 }
 
-/// Spectra of one tile: eight kv across the lanes, N entries ku in FFT order, each complex.
-pub struct TileSpectra<'a> {
-    /// h.
-    pub height: [&'a mut [Lane]; 2],
-    /// Du over the choppiness.
-    pub du: [&'a mut [Lane]; 2],
-    /// Dv over the choppiness.
-    pub dv: [&'a mut [Lane]; 2],
+/// (cos, sin) of `turn` / 2^32 of a circle, to 1e-9 before they are rounded.
+///
+/// Taylor's series in `f64` up to an eighth of a circle, without fused or library operations: the same bits everywhere.
+pub fn cos_sin(turn: u32) -> [f32; 2] {
+    const QUARTER: u32 = 1 << 30;
+    let quadrant = turn.wrapping_add(QUARTER / 2) / QUARTER;
+    let rest = turn.wrapping_sub(quadrant * QUARTER) as i32;
+    let x = f64::from(rest) * (TAU / 4_294_967_296.0);
+    let x2 = x * x;
+    let sin =
+        x * (1.0 - x2 / 6.0 * (1.0 - x2 / 20.0 * (1.0 - x2 / 42.0 * (1.0 - x2 / 72.0 * (1.0 - x2 / 110.0)))));
+    let cos = 1.0
+        - x2 / 2.0
+            * (1.0
+                - x2 / 12.0 * (1.0 - x2 / 30.0 * (1.0 - x2 / 56.0 * (1.0 - x2 / 90.0 * (1.0 - x2 / 132.0)))));
+    let [cos, sin] = match quadrant {
+        0 => [cos, sin],
+        1 => [-sin, cos],
+        2 => [-cos, -sin],
+        _ => [sin, -cos],
+    };
+    [cos as f32, sin as f32]
 }
 
-/// h(k, t) = h0(k) e^{-i w t} + conj(h0(-k)) e^{i w t}, so that waves run along +k, and D(k) = i k/|k| h, which with
-/// e^{+ik.x} draws points towards crests.
+/// The spectrum of the height of one tile, h(k, t) = h0(k) e^{-i w t} + conj(h0(-k)) e^{i w t}, so that waves run along +k.
 ///
-/// `modes` are the N of one tile, `rotations` the table of [`rotations`], every slice of `out` has length N.
-pub fn evolve(modes: &[Modes], rotations: &[[f32; 2]], out: &mut TileSpectra<'_>) {
-    let n = modes.len();
-    let [h_re, h_im] = out.height.each_mut().map(|part| &mut part[..n]);
-    let [u_re, u_im] = out.du.each_mut().map(|part| &mut part[..n]);
-    let [v_re, v_im] = out.dv.each_mut().map(|part| &mut part[..n]);
-    for (ku, m) in modes.iter().enumerate() {
-        let mut cos: Lane = [0.0; LANES];
-        let mut sin: Lane = [0.0; LANES];
-        for lane in 0..LANES {
-            [cos[lane], sin[lane]] = rotations[m.harmonic[lane] as usize];
+/// `rotations` is the table of [`rotations`], `out` a tile of N = `R1` x `R2` rows.
+#[inline(always)]
+pub fn evolve<S: Simd, const R1: usize, const R2: usize>(
+    simd: S,
+    spectrum: SpectrumTile<'_>,
+    rotations: &[[f32; 2]],
+    out: &mut [f32],
+) {
+    let layout = Layout::of(R1, R2);
+    let n = layout.n;
+    let harmonic = &spectrum.harmonic[..(n / 2 + 1) * TILE];
+    let out = &mut out[..layout.tile_len()];
+    for lane in (0..TILE).step_by(S::LANES) {
+        // k and its mirror image along v turn equally fast.
+        for kv in 0..n / 2 {
+            let turn = simd.pairs(rotations, &harmonic[kv * TILE + lane..]);
+            wave(simd, spectrum.amplitudes, turn, kv, lane, &mut out[layout.row(kv)..]);
+            if kv > 0 {
+                wave(simd, spectrum.amplitudes, turn, n - kv, lane, &mut out[layout.row(n - kv)..]);
+            }
         }
-        let mut re: Lane = [0.0; LANES];
-        let mut im: Lane = [0.0; LANES];
-        for lane in 0..LANES {
-            re[lane] = m.cos_re[lane] * cos[lane] + m.sin_re[lane] * sin[lane];
-            im[lane] = m.cos_im[lane] * cos[lane] + m.sin_im[lane] * sin[lane];
+        let nyquist = &mut out[layout.row(n / 2) + lane..];
+        simd.splat(0.0).store(nyquist);
+        simd.splat(0.0).store(&mut nyquist[TILE..]);
+    }
+}
+
+/// One vector of [`evolve`], to the row `out`.
+#[inline(always)]
+fn wave<S: Simd>(
+    simd: S,
+    amplitudes: &[f32],
+    [cos, sin]: [S::F32; 2],
+    row: usize,
+    lane: usize,
+    out: &mut [f32],
+) {
+    let parts = Strided::new(simd, amplitudes, 4 * row * TILE + lane, TILE, 4);
+    let mut out = StridedMut::new(simd, out, lane, TILE, 2);
+    out.store(0, parts.load(2).mul_add(sin, parts.load(0) * cos));
+    out.store(1, parts.load(3).mul_add(sin, parts.load(1) * cos));
+}
+
+/// The spectrum of the displacement along u: i ku/|k| h times the choppiness, which with e^{+ik.x} draws points towards
+/// crests.
+#[derive(Clone, Copy, Debug)]
+pub struct AlongU<'a> {
+    /// h, from [`evolve`].
+    pub height: &'a [f32],
+    /// The tile it is of.
+    pub spectrum: SpectrumTile<'a>,
+}
+
+/// The same along v.
+#[derive(Clone, Copy, Debug)]
+pub struct AlongV<'a>(pub AlongU<'a>);
+
+impl Source for AlongU<'_> {
+    #[inline(always)]
+    fn rows<S: Simd, const R1: usize, const R2: usize>(self, simd: S, q: usize, lane: usize) -> impl Rows<S> {
+        let component = simd.load(&COUNT) + simd.splat((self.spectrum.first_ku + lane) as f32);
+        UnitRows::<S, R1, R2>::new(simd, self, q, lane, [component, simd.splat(0.0)])
+    }
+}
+
+impl Source for AlongV<'_> {
+    #[inline(always)]
+    fn rows<S: Simd, const R1: usize, const R2: usize>(self, simd: S, q: usize, lane: usize) -> impl Rows<S> {
+        UnitRows::<S, R1, R2>::new(simd, self.0, q, lane, [simd.splat(q as f32), simd.splat(R2 as f32)])
+    }
+}
+
+/// 0, 1, 2, ..
+const COUNT: [f32; TILE] = [0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0];
+
+/// Rows of i k/|k| h.
+#[derive(Clone, Copy)]
+struct UnitRows<'a, S: Simd, const R1: usize, const R2: usize> {
+    simd: S,
+    height: StoredRows<'a, S>,
+    /// Choppiness over |k|, rows q + R2 p.
+    inverse: Strided<'a, S>,
+    /// The same backwards: rows of the negative frequencies are mirrored.
+    mirrored: Strided<'a, S>,
+    /// The component of k in the first row, and its growth from row to row.
+    component: [S::F32; 2],
+}
+
+impl<'a, S: Simd, const R1: usize, const R2: usize> UnitRows<'a, S, R1, R2> {
+    #[inline(always)]
+    fn new(simd: S, waves: AlongU<'a>, q: usize, lane: usize, component: [S::F32; 2]) -> Self {
+        let inverse = waves.spectrum.inverse;
+        // The rows kv < N/2 are the first half of p; the others are N - kv = (R2 - q) + R2 (R1 - 1 - p).
+        let half = R1 / 2;
+        Self {
+            simd,
+            height: StoredRows::new(simd, waves.height, q * ROW + lane, Layout::of(R1, R2).group_len(), R1),
+            inverse: Strided::new(simd, inverse, q * TILE + lane, R2 * TILE, half),
+            mirrored: Strided::new(simd, inverse, (R2 - q) * TILE + lane, R2 * TILE, half),
+            component,
         }
-        h_re[ku] = re;
-        h_im[ku] = im;
-        for lane in 0..LANES {
-            u_re[ku][lane] = -m.unit_u[lane] * im[lane];
-            u_im[ku][lane] = m.unit_u[lane] * re[lane];
-            v_re[ku][lane] = -m.unit_v[lane] * im[lane];
-            v_im[ku][lane] = m.unit_v[lane] * re[lane];
-        }
+    }
+}
+
+impl<S: Simd, const R1: usize, const R2: usize> Rows<S> for UnitRows<'_, S, R1, R2> {
+    #[inline(always)]
+    fn load(self, p: usize) -> Complex<S::F32> {
+        let (inverse, p_signed) = if p < R1 / 2 {
+            (self.inverse.load(p), p as f32)
+        } else {
+            (self.mirrored.load(R1 - 1 - p), p as f32 - R1 as f32)
+        };
+        let unit = self.component[1].mul_add(self.simd.splat(p_signed), self.component[0]) * inverse;
+        let height = self.height.load(p);
+        Complex { re: -(unit * height.im), im: unit * height.re }
     }
 }

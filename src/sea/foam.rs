@@ -1,5 +1,9 @@
 //! Foam: where the surface was squeezed together, and for how long that shows. See `docs/foam.md`.
-use super::{clock::Phase, settings::FoamSettings};
+use super::{
+    clock::Phase,
+    settings::FoamSettings,
+    simd::{Aligned, Float, Simd},
+};
 
 /// Largest compression remembered. A surface folded over once has J >= -1 nearly everywhere.
 pub const MAX_COMPRESSION: f32 = 2.0;
@@ -8,9 +12,12 @@ pub const MAX_COMPRESSION: f32 = 2.0;
 const TICKS_PER_SECOND: f64 = 10.0;
 
 /// Share `breaking` of the compression 1 - J of a surface element, 0 where it is stretched, at most [`MAX_COMPRESSION`].
+///
+/// J comes as an `area` that is `breaking` J when multiplied by `scale`.
 #[inline(always)]
-pub fn compression(jacobian: f32, breaking: f32) -> f32 {
-    ((1.0 - jacobian) * breaking).clamp(0.0, MAX_COMPRESSION)
+pub fn compression<S: Simd>(simd: S, area: S::F32, scale: S::F32, breaking: S::F32) -> S::F32 {
+    let share = area.neg_mul_add(scale, breaking);
+    share.max(simd.splat(0.0)).min(simd.splat(MAX_COMPRESSION))
 }
 
 /// Foam cover, 0..=1, of a `compression` summed over cascades: smoothstep from the threshold over the width.
@@ -64,7 +71,7 @@ impl Fading {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Memory {
     /// Compression left at every grid point, N x N.
-    pub texels: Vec<f32>,
+    pub texels: Aligned<f32>,
     /// The tick it stands at; `None` when it must be built anew.
     pub tick: Option<u64>,
 }
@@ -72,7 +79,7 @@ pub struct Memory {
 impl Memory {
     /// No memory of `n` x `n` points.
     pub fn new(n: usize) -> Self {
-        Self { texels: vec![0.0; n * n], tick: None }
+        Self { texels: Aligned::zeros(n * n), tick: None }
     }
 
     /// How many ticks, the last being `to`, must be taken in; forgets everything first where that is cheaper.
@@ -105,8 +112,8 @@ impl FrameFoam {
     }
 }
 
-/// One texel's compression to be seen, from what is remembered and what is there now.
+/// The compression to be seen, from what is remembered and what is there now.
 #[inline(always)]
-pub fn fade(remembered: f32, lost: f32, now: f32) -> f32 {
+pub fn fade<V: Float>(remembered: V, lost: V, now: V) -> V {
     (remembered - lost).max(now)
 }

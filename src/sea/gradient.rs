@@ -1,7 +1,8 @@
 //! Normals, the Jacobian and their packing, eqs (45)-(51) and (53).
 use super::{
-    fft::{LANES, Lane},
-    settings::NormalKind,
+    fft::{layout::FIELDS, rows::Window},
+    settings::{CascadeSettings, NormalKind},
+    simd::{Float, Simd, Strided},
 };
 
 /// What the gradients of a cascade depend on besides its displacement.
@@ -15,15 +16,15 @@ pub struct GradientParams {
     pub normals: NormalKind,
 }
 
-/// The displacement planes of a cascade, each N x N, metres.
-#[derive(Clone, Copy, Debug)]
-pub struct Field<'a> {
-    /// Displacement along u.
-    pub du: &'a [f32],
-    /// Height.
-    pub height: &'a [f32],
-    /// Displacement along v.
-    pub dv: &'a [f32],
+impl GradientParams {
+    /// Those of a cascade.
+    pub fn new(cascade: &CascadeSettings, normals: NormalKind) -> Self {
+        Self {
+            per_difference: (cascade.resolution as f64 / (2.0 * cascade.patch_size)) as f32,
+            normal_length: normal_length(cascade.roughness as f32),
+            normals,
+        }
+    }
 }
 
 /// Expected length of a normal over water of roughness `r`, 0..=1, eq (49): 1 when smooth, 0.5 when rough.
@@ -31,147 +32,152 @@ pub fn normal_length(r: f32) -> f32 {
     1.0 - r * (0.306 + r * (0.113 + r * 0.081))
 }
 
-/// Smoothness, 0..=1, of a normal's length, eq (53).
-pub fn smoothness(length: f32) -> f32 {
-    // 3 (length - 2/3), and the quadratic 1 - t (0.85 + 0.15 t) in factors: both then end exactly at smooth water.
-    let t = (length * 3.0 - 2.0).clamp(0.0, 1.0);
-    let roughness = (1.0 - t) * (1.0 + 0.15 * t);
-    1.0 - roughness.sqrt()
+/// Twice the cell's width times the derivatives of (h, Du, Dv) along u and along v: differences between neighbours, eq (45),
+/// not yet divided. Normals have no length yet, and J takes one factor at the end.
+#[derive(Clone, Copy, Debug)]
+pub struct Tangents<V> {
+    /// Of h.
+    height: [V; 2],
+    /// Of u + Du.
+    u: [V; 2],
+    /// Of v + Dv.
+    v: [V; 2],
+    /// The Jacobian (48) over [`GradientParams::per_difference`] squared.
+    pub area: V,
 }
 
-/// (n_u, n_v, J, smoothness) as bytes in memory order, eqs (50)(51), of unnormalised normals and J `[n_u, n_y, n_v, J]`.
-///
-/// `out` is as long as `texels`.
-pub fn pack(texels: &[[f32; 4]], out: &mut [[u8; 4]]) {
-    let (blocks, rest) = texels.as_chunks::<LANES>();
-    let (out_blocks, out_rest) = out.as_chunks_mut::<LANES>();
-    for (block, out) in blocks.iter().zip(out_blocks) {
-        *out = pack_block(block);
-    }
-    let mut block = [[0.0; 4]; LANES];
-    block[..rest.len()].copy_from_slice(rest);
-    out_rest.copy_from_slice(&pack_block(&block)[..rest.len()]);
+/// A row of every plane and its neighbours above and below on the torus, eq (46), in steps of a vector.
+#[derive(Clone, Copy, Debug)]
+pub struct Rows<'a, S> {
+    above: Strided<'a, S>,
+    here: Strided<'a, S>,
+    below: Strided<'a, S>,
+    window: Window,
 }
 
-#[inline(always)]
-fn pack_block(texels: &[[f32; 4]; LANES]) -> [[u8; 4]; LANES] {
-    let mut packed = [0_u32; LANES];
-    for l in 0..LANES {
-        let [u, y, v, jacobian] = texels[l];
-        let length = (u * u + y * y + v * v).sqrt();
-        let scale = 0.5 / length.max(f32::MIN_POSITIVE);
-        packed[l] = to_byte(u * scale + 0.5)
-            | to_byte(v * scale + 0.5) << 8
-            | to_byte(jacobian * 0.5 + 0.5) << 16
-            | to_byte(smoothness(length)) << 24;
-    }
-    std::array::from_fn(|l| packed[l].to_le_bytes())
-}
-
-/// floor(255 `value` + 1/2), clamped.
-#[inline(always)]
-fn to_byte(value: f32) -> u32 {
-    // Between 256 and 512 the integer part's last eight bits are the mantissa's first: a floor without a conversion,
-    // which the compiler would not vectorise.
-    let shifted = value.clamp(0.0, 1.0) * 255.0 + 0.5 + 256.0;
-    shifted.to_bits() >> 15 & 0xff
-}
-
-/// Normals times [`GradientParams::normal_length`] and J, `[n_u, n_y, n_v, J]`, of one row of the grid.
-///
-/// The exact normal is the cross product of the displaced surface's tangents (1 + dDu/du, dh/du, dDv/du) and
-/// (dDu/dv, dh/dv, 1 + dDv/dv); its upward part is J itself. Where the surface has folded over (J < 0) it points down;
-/// the map keeps no sign for n_y, so the upward part is stored as |J|, which is what a reader of the map reconstructs.
-/// The sheet normal is eq (47)'s.
-pub fn gradient_row(field: Field<'_>, n: usize, row: usize, params: &GradientParams, out: &mut [[f32; 4]]) {
-    let rows = Rows::of(field, n, row);
-    let (blocks, _) = out[..n].as_chunks_mut::<LANES>();
-    for (block, out) in blocks.iter_mut().enumerate() {
-        let [[u_u, h_u, v_u], [u_v, h_v, v_v]] = rows.tangents(block * LANES, params.per_difference);
-        for l in 0..LANES {
-            let jacobian = jacobian(u_u[l], v_u[l], u_v[l], v_v[l]);
-            let [x, y, z] = match params.normals {
-                NormalKind::Exact => [
-                    h_v[l] * v_u[l] - (1.0 + v_v[l]) * h_u[l],
-                    jacobian.abs(),
-                    u_v[l] * h_u[l] - h_v[l] * (1.0 + u_u[l]),
-                ],
-                NormalKind::Sheet => [-h_u[l], 1.0, -h_v[l]],
-            };
-            let length = (x * x + y * y + z * z).sqrt();
-            let scale = params.normal_length / length.max(f32::MIN_POSITIVE);
-            out[l] = [x * scale, y * scale, z * scale, jacobian];
-        }
-    }
-}
-
-/// The Jacobian (48) alone, of one row: `visit` is given the first column of every eight, and their J.
-pub fn jacobian_row(
-    field: Field<'_>,
-    n: usize,
-    row: usize,
-    per_difference: f32,
-    mut visit: impl FnMut(usize, Lane),
-) {
-    let rows = Rows::of(field, n, row);
-    for column in (0..n).step_by(LANES) {
-        let [[u_u, _, v_u], [u_v, _, v_v]] = rows.tangents(column, per_difference);
-        let mut jacobians = [0.0; LANES];
-        for l in 0..LANES {
-            jacobians[l] = jacobian(u_u[l], v_u[l], u_v[l], v_v[l]);
-        }
-        visit(column, jacobians);
-    }
-}
-
-/// Three neighbouring rows of each plane on the torus, eq (46): above, here, below.
-#[derive(Clone, Copy)]
-struct Rows<'a> {
-    planes: [[&'a [f32]; 3]; 3],
-}
-
-/// Derivatives of (Du, h, Dv) along u and along v, of eight neighbouring columns.
-type Tangents = [[Lane; 3]; 2];
-
-impl<'a> Rows<'a> {
-    fn of(field: Field<'a>, n: usize, row: usize) -> Self {
-        let rows = [(row + n - 1) % n, row, (row + 1) % n];
-        let planes = [field.du, field.height, field.dv];
-        Self { planes: planes.map(|plane| rows.map(|row| &plane[row * n..(row + 1) * n])) }
-    }
-
-    /// Central differences, eq (45), at eight columns from `column`.
+impl<'a, S: Simd> Rows<'a, S> {
+    /// Row `v`; the window holds its neighbours too.
     #[inline(always)]
-    fn tangents(&self, column: usize, scale: f32) -> Tangents {
-        let n = self.planes[0][1].len();
-        let mut tangents = [[[0.0; LANES]; 3]; 2];
-        for (plane, [above, here, below]) in self.planes.iter().enumerate() {
-            let (right, left) = (lane(here, column + 1), lane(here, (column + n - 1) % n));
-            let (below, above) = (lane(below, column), lane(above, column));
-            for l in 0..LANES {
-                tangents[0][plane][l] = (right[l] - left[l]) * scale;
-                tangents[1][plane][l] = (below[l] - above[l]) * scale;
-            }
+    pub fn new(simd: S, window: Window, planes: &'a [f32], v: usize) -> Self {
+        // From the number before the row of the first plane to the one after the row of the last.
+        let reach = (FIELDS - 1) * window.field_stride() + 2;
+        let row = |v: usize| {
+            let first = window.row(0, v) - 1;
+            Strided::reaching(simd, planes, first, S::LANES, window.n / S::LANES, reach)
+        };
+        Self { above: row(v.wrapping_sub(1)), here: row(v), below: row(v + 1), window }
+    }
+
+    /// Vectors in the row.
+    #[inline(always)]
+    pub const fn vectors(&self) -> usize {
+        self.window.n / S::LANES
+    }
+
+    /// A vector of plane `field`: 0 is h, 1 is Du, 2 is Dv.
+    #[inline(always)]
+    pub fn value(&self, field: usize, vector: usize) -> S::F32 {
+        self.here.load_after(vector, field * self.window.field_stride() + 1)
+    }
+
+    /// What is ahead less what is behind, along u and along v.
+    #[inline(always)]
+    fn differences(&self, field: usize, vector: usize) -> [S::F32; 2] {
+        let at = field * self.window.field_stride();
+        let along_u = self.here.load_after(vector, at + 2) - self.here.load_after(vector, at);
+        let along_v = self.below.load_after(vector, at + 1) - self.above.load_after(vector, at + 1);
+        [along_u, along_v]
+    }
+}
+
+impl<V: Float> Tangents<V> {
+    /// Central differences of one vector of a row; `width` is what u itself grows by between the two neighbours.
+    #[inline(always)]
+    pub fn new<S: Simd<F32 = V>>(rows: &Rows<'_, S>, vector: usize, width: V) -> Self {
+        let height = rows.differences(0, vector);
+        let u = rows.differences(1, vector);
+        let v = rows.differences(2, vector);
+        let (u, v) = ([u[0] + width, u[1]], [v[0], v[1] + width]);
+        let area = u[1].neg_mul_add(v[0], u[0] * v[1]);
+        Self { height, u, v, area }
+    }
+
+    /// A normal of no particular length.
+    ///
+    /// The exact one is the cross product of the displaced surface's tangents (1 + dDu/du, dh/du, dDv/du) and
+    /// (dDu/dv, dh/dv, 1 + dDv/dv); its upward part is J itself. Where the surface has folded over (J < 0) it points down;
+    /// the map keeps no sign for n_y, so the upward part is taken as |J|, which is what a reader of the map reconstructs.
+    /// The sheet normal, [`NormalKind::Sheet`], is eq (47)'s.
+    #[inline(always)]
+    pub fn normal<const SHEET: bool>(&self, width: V) -> [V; 3] {
+        let [h_u, h_v] = self.height;
+        if SHEET {
+            return [-h_u, width, -h_v];
         }
-        tangents
+        [
+            self.v[1].neg_mul_add(h_u, h_v * self.v[0]),
+            self.area.abs(),
+            self.u[0].neg_mul_add(h_v, self.u[1] * h_u),
+        ]
     }
 }
 
-/// Eight columns from `from`, around the end of the row.
+/// Two vectors that go through a chain of dependent operations side by side: one alone would leave the processor waiting.
+pub type Two<V> = [V; 2];
+
+/// 1 / sqrt(x) to 3e-7; a finite number where x is 0.
+///
+/// The seed from the exponent's bits, a first step of Newton's method with Kadlec's constants (2010), which spread its
+/// error to both sides (6.5e-4), and a plain second one, whose error has one sign and is centred.
 #[inline(always)]
-fn lane(row: &[f32], from: usize) -> Lane {
-    match row.get(from..from + LANES).and_then(|columns| columns.first_chunk()) {
-        Some(columns) => *columns,
-        None => around_the_end(row, from),
-    }
+pub fn inverse_sqrt<S: Simd>(simd: S, [x, y]: Two<S::F32>) -> Two<S::F32> {
+    let (scale, slope) = (simd.splat(0.703_952_25), simd.splat(2.389_244_6));
+    let (half, centre) = (simd.splat(0.5), simd.splat(1.5 + 2.4e-7));
+    let (seed_x, seed_y) = (x.inverse_sqrt_seed(), y.inverse_sqrt_seed());
+    let (product_x, product_y) = (x * seed_x, y * seed_y);
+    let (scaled_x, scaled_y) = (seed_x * scale, seed_y * scale);
+    let (rest_x, rest_y) = (product_x.neg_mul_add(seed_x, slope), product_y.neg_mul_add(seed_y, slope));
+    let (half_x, half_y) = (x * half, y * half);
+    let (first_x, first_y) = (scaled_x * rest_x, scaled_y * rest_y);
+    let (product_x, product_y) = (half_x * first_x, half_y * first_y);
+    let (rest_x, rest_y) = (product_x.neg_mul_add(first_x, centre), product_y.neg_mul_add(first_y, centre));
+    [first_x * rest_x, first_y * rest_y]
 }
 
-#[cold]
-fn around_the_end(row: &[f32], from: usize) -> Lane {
-    std::array::from_fn(|l| row[(from + l) % row.len()])
+/// The squared length of a normal.
+#[inline(always)]
+pub fn square<V: Float>([x, y, z]: [V; 3]) -> V {
+    x.mul_add(x, y.mul_add(y, z * z))
 }
 
+/// 255 times the smoothness, 0..=1, of normals' lengths, eq (53).
 #[inline(always)]
-fn jacobian(u_u: f32, v_u: f32, u_v: f32, v_v: f32) -> f32 {
-    (1.0 + u_u) * (1.0 + v_v) - u_v * v_u
+pub fn smoothness<S: Simd>(simd: S, [a, b]: Two<S::F32>) -> Two<S::F32> {
+    let roughness = [roughness(simd, a), roughness(simd, b)];
+    let inverse = inverse_sqrt(simd, roughness);
+    let (scale, zero) = (simd.splat(255.0), simd.splat(0.0));
+    let (a, b) = (roughness[0] * inverse[0], roughness[1] * inverse[1]);
+    [a.neg_mul_add(scale, scale).max(zero), b.neg_mul_add(scale, scale).max(zero)]
+}
+
+/// The square of 1 less the smoothness.
+#[inline(always)]
+fn roughness<S: Simd>(simd: S, length: S::F32) -> S::F32 {
+    let (zero, one) = (simd.splat(0.0), simd.splat(1.0));
+    // 3 (length - 2/3), and the quadratic 1 - t (0.85 + 0.15 t) in factors: both then end exactly at smooth water.
+    let t = length.mul_add(simd.splat(3.0), simd.splat(-2.0)).max(zero).min(one);
+    (one - t) * t.mul_add(simd.splat(0.15), one)
+}
+
+/// -1..=1 as 0..=255, eq (51).
+#[inline(always)]
+pub fn to_byte<S: Simd>(simd: S, value: S::F32) -> S::F32 {
+    let half = simd.splat(127.5);
+    value.mul_add(half, half)
+}
+
+/// J as 0..=255, eq (51), cut off at both ends: `area` times `scale` is 127.5 J.
+#[inline(always)]
+pub fn jacobian_byte<S: Simd>(simd: S, area: S::F32, scale: S::F32) -> S::F32 {
+    area.mul_add(scale, simd.splat(127.5)).max(simd.splat(0.0)).min(simd.splat(255.0))
 }

@@ -2,6 +2,7 @@
 use super::{
     mips::{mip_levels, mip_offset},
     settings::{CascadeSettings, FoamSettings},
+    simd::Aligned,
 };
 use half::f16;
 
@@ -15,32 +16,50 @@ pub struct CascadeMaps {
     /// Angle of the axes u and v, radians, see `docs/conventions.md`.
     pub rotation: f64,
     /// (Du, h, Dv, compression), metres and a ratio 0..=2: the whole mip chain.
-    pub displacement: Vec<[f16; 4]>,
+    pub displacement: Aligned<[f16; 4]>,
     /// (n_u, n_v, J, smoothness), eqs (50)(51): the whole mip chain.
-    pub gradient: Vec<[u8; 4]>,
-    /// Displacement along u at full precision, metres, N x N.
+    pub gradient: Aligned<[u8; 4]>,
+    /// The displacement at full precision, where it is wanted: frames do without.
+    pub planes: Option<Planes>,
+}
+
+/// Displacement at full precision, each plane N x N, metres.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Planes {
+    /// Along u.
     pub du: Vec<f32>,
-    /// Height at full precision, metres, N x N.
+    /// Height.
     pub height: Vec<f32>,
-    /// Displacement along v at full precision, metres, N x N.
+    /// Along v.
     pub dv: Vec<f32>,
 }
 
 impl CascadeMaps {
-    /// Flat maps for a cascade.
-    pub fn new(cascade: &CascadeSettings) -> Self {
+    /// Flat maps for a cascade, with planes or without.
+    pub fn new(cascade: &CascadeSettings, planes: bool) -> Self {
         let n = cascade.resolution;
         let chain = mip_offset(n, mip_levels(n));
+        let plane = vec![0.0; if planes { n * n } else { 0 }];
         Self {
             resolution: n,
             patch_size: cascade.patch_size,
             rotation: cascade.rotation,
-            displacement: vec![[f16::ZERO; 4]; chain],
-            gradient: vec![[0; 4]; chain],
-            du: vec![0.0; n * n],
-            height: vec![0.0; n * n],
-            dv: vec![0.0; n * n],
+            displacement: Aligned::zeros(chain),
+            gradient: Aligned::zeros(chain),
+            planes: planes.then(|| Planes { du: plane.clone(), height: plane.clone(), dv: plane }),
         }
+    }
+
+    /// Whether they are those of a grid of `n` x `n`.
+    pub(super) fn fits(&self, n: usize) -> bool {
+        let chain = mip_offset(n, mip_levels(n));
+        let whole = |planes: &Planes| {
+            [&planes.du, &planes.height, &planes.dv].iter().all(|plane| plane.len() == n * n)
+        };
+        self.resolution == n
+            && self.displacement.len() == chain
+            && self.gradient.len() == chain
+            && self.planes.as_ref().is_none_or(whole)
     }
 }
 

@@ -9,10 +9,11 @@
 //! [`Sea::step`] is a pure function of the settings and the time: the same bytes on every run, with any number of
 //! threads, from whatever time the sea was stepped before.
 pub mod ahead;
+mod band;
 mod cascade;
 pub mod clock;
+mod columns;
 pub mod dispersion;
-pub mod displacement;
 pub mod error;
 pub mod evolve;
 pub mod fft;
@@ -23,13 +24,16 @@ pub mod mips;
 pub mod philox;
 pub mod query;
 pub mod reference;
+mod scratch;
 pub mod settings;
+pub mod simd;
 pub mod spectrum;
+mod split;
 pub mod stages;
 
 pub use ahead::SeaAhead;
 pub use error::SeaError;
-pub use maps::{CascadeMaps, SeaMaps};
+pub use maps::{CascadeMaps, Planes, SeaMaps};
 pub use mips::{mip_levels, mip_offset};
 pub use query::Surface;
 pub use settings::{CascadeSettings, FoamSettings, NormalKind, SeaSettings, Spectrum, split_bands};
@@ -39,6 +43,7 @@ use cascade::Cascade;
 use clock::Phase;
 use foam::Fading;
 use rayon::prelude::*;
+use simd::Isa;
 use stages::Times;
 
 /// A sea ready to be stepped: spectra, working space, and the foam's memory.
@@ -56,9 +61,17 @@ impl Sea {
     /// # Errors
     /// [`SeaError::Sea`] and [`SeaError::Cascade`] name the parameter that is out of range.
     pub fn new(settings: &SeaSettings) -> Result<Self, SeaError> {
+        Self::with_isa(settings, Isa::best())
+    }
+
+    /// [`Sea::new`], stepped with the instructions of `isa`. AVX2, AVX-512 and NEON give the same bits.
+    ///
+    /// # Errors
+    /// Those of [`Sea::new`].
+    pub fn with_isa(settings: &SeaSettings, isa: Isa) -> Result<Self, SeaError> {
         settings.validate()?;
         let cascades = settings.cascades.iter().zip(0..).map(|(cascade, index)| {
-            Cascade::new(cascade, settings.gravity, settings.repeat_period, settings.normals, index)
+            Cascade::new(cascade, settings.gravity, settings.repeat_period, settings.normals, index, isa)
         });
         Ok(Self {
             cascades: cascades.collect::<Result<_, _>>()?,
@@ -73,13 +86,19 @@ impl Sea {
         &self.settings
     }
 
-    /// Flat maps of the right sizes, to be filled by [`Sea::step`].
+    /// Flat maps of the right sizes, to be filled by [`Sea::step`]: what a frame needs.
     pub fn new_maps(&self) -> SeaMaps {
-        SeaMaps {
-            time: 0.0,
-            foam: self.settings.foam,
-            cascades: self.settings.cascades.iter().map(CascadeMaps::new).collect(),
-        }
+        self.flat_maps(false)
+    }
+
+    /// [`Sea::new_maps`] with planes of displacement at full precision, which cost a step their writing.
+    pub fn new_maps_with_planes(&self) -> SeaMaps {
+        self.flat_maps(true)
+    }
+
+    fn flat_maps(&self, planes: bool) -> SeaMaps {
+        let cascades = self.settings.cascades.iter().map(|cascade| CascadeMaps::new(cascade, planes));
+        SeaMaps { time: 0.0, foam: self.settings.foam, cascades: cascades.collect() }
     }
 
     /// Fills `maps` with the sea at `time` (seconds, any sign), on the threads of the pool it is called in.

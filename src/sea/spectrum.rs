@@ -2,9 +2,10 @@
 use super::{
     dispersion::{frequency, harmonic, shoaling},
     error::SeaError,
-    fft::{LANES, Lane},
+    fft::layout::{Layout, TILE},
     philox::gaussian,
     settings::{CascadeSettings, Spectrum},
+    simd::Aligned,
 };
 use rayon::prelude::*;
 use std::f64::consts::{E, PI, TAU};
@@ -127,109 +128,127 @@ pub fn initial_amplitude(cascade: &CascadeSettings, gravity: f64, index: u32, i:
     gaussian(cascade.seed, i, j, index).map(|part| part * scale)
 }
 
-/// Eight wave vectors of one ku and neighbouring kv, ready for eq (24).
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Modes {
-    /// Real part of the factor of cos(w t), eq (22), metres.
-    pub cos_re: Lane,
-    /// Its imaginary part.
-    pub cos_im: Lane,
-    /// Real part of the factor of sin(w t).
-    pub sin_re: Lane,
-    /// Its imaginary part.
-    pub sin_im: Lane,
-    /// ku / |k|.
-    pub unit_u: Lane,
-    /// kv / |k|.
-    pub unit_v: Lane,
-    /// Index into [`PackedSpectrum::harmonics`].
-    pub harmonic: [u32; LANES],
-}
-
-/// The amplitudes of half the wave vectors of a cascade, kv in 0..N/2; the other half is their conjugate mirror.
+/// The amplitudes of half the wave vectors of a cascade, ku in 0..N/2; the other half is their conjugate mirror.
 ///
-/// Both directions are in FFT order (0, 1, .., N/2 - 1, -N/2, .., -1), which makes eq (42)'s signs unnecessary.
+/// kv is in FFT order (0, 1, .., N/2 - 1, -N/2, .., -1), which makes eq (42)'s signs unnecessary.
 /// The row and the column at the Nyquist index -N/2 are zero: there k and -k are the same grid point, so i k/|k| h
 /// cannot be Hermitian and the horizontal displacement would not be real.
+///
+/// Everything lies in the tiles of a [`Layout`], in the order in which a step reads it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PackedSpectrum {
-    /// N.
-    pub resolution: usize,
-    /// N/16 tiles of eight kv, each with N entries in the order of ku: `modes[tile * N + ku]`.
-    pub modes: Vec<Modes>,
+    layout: Layout,
+    /// For each tile and each of its N rows kv: the factors of cos(w t) and sin(w t), eq (22), metres, of the tile's ku:
+    /// real parts of the first, imaginary parts, real parts of the second, imaginary parts.
+    amplitudes: Aligned<f32>,
+    /// For each tile and kv = 0..=N/2: the choppiness over |k|, k in units of 2 pi / L; 0 where there is no wave.
+    inverse: Aligned<f32>,
+    /// For each tile and kv = 0..=N/2: index into [`PackedSpectrum::harmonics`].
+    harmonic: Aligned<u16>,
     /// The distinct harmonics of 2 pi / T that occur, ascending.
     pub harmonics: Vec<u32>,
 }
 
+/// One tile of a [`PackedSpectrum`].
+#[derive(Clone, Copy, Debug)]
+pub struct SpectrumTile<'a> {
+    /// N rows kv of four times the tile's lanes.
+    pub amplitudes: &'a [f32],
+    /// N/2 + 1 rows kv.
+    pub inverse: &'a [f32],
+    /// N/2 + 1 rows kv.
+    pub harmonic: &'a [u16],
+    /// Its first ku.
+    pub first_ku: usize,
+}
+
 impl PackedSpectrum {
-    /// The spectrum of cascade number `index` of a sea.
+    /// The spectrum of cascade number `index` of a sea, laid out for `layout`.
     ///
     /// # Errors
     /// [`SeaError::Cascade`] when an amplitude does not fit an `f32`.
-    pub fn new(cascade: &CascadeSettings, gravity: f64, period: f64, index: u32) -> Result<Self, SeaError> {
-        let n = cascade.resolution;
-        let mut modes: Vec<Modes> = (0..n * n / (2 * LANES))
-            .into_par_iter()
-            .map(|entry| {
-                let ku = signed(entry % n, n);
-                let mut modes = Modes::default();
-                for lane in 0..LANES {
-                    let kv = (entry / n * LANES + lane) as i32;
-                    modes.set(lane, cascade, gravity, period, index, [ku, kv]);
-                }
-                modes
-            })
-            .collect();
-        if !modes.iter().all(Modes::is_finite) {
-            let value = format!("{}", cascade.amplitude);
-            let allowed = "a smaller factor, or less wind: the waves are too high to compute";
-            return Err(SeaError::Cascade { cascade: index as usize, key: "amplitude", value, allowed });
-        }
-        let mut harmonics: Vec<u32> = modes.iter().flat_map(|modes| modes.harmonic).collect();
-        harmonics.sort_unstable();
-        harmonics.dedup();
-        for entry in &mut modes {
-            for harmonic in &mut entry.harmonic {
-                *harmonic = harmonics.partition_point(|known| known < harmonic) as u32;
-            }
-        }
-        Ok(Self { resolution: n, modes, harmonics })
-    }
-}
-
-impl Modes {
-    /// Fills one lane; `harmonic` holds the harmonic itself until all are known.
-    fn set(
-        &mut self,
-        lane: usize,
+    pub fn new(
         cascade: &CascadeSettings,
         gravity: f64,
         period: f64,
         index: u32,
-        [i, j]: [i32; 2],
-    ) {
-        if i == -(cascade.resolution as i32) / 2 || (i == 0 && j == 0) {
-            return;
+        layout: Layout,
+    ) -> Result<Self, SeaError> {
+        let (n, lanes) = (layout.n, TILE);
+        let half = (n / 2 + 1) * lanes;
+        let mut amplitudes = Aligned::zeros(2 * n * n);
+        let mut inverse = Aligned::zeros(layout.tiles() * half);
+        let mut numbers = vec![0_u32; layout.tiles() * half];
+        amplitudes
+            .par_chunks_exact_mut(4 * n * lanes)
+            .zip(inverse.par_chunks_exact_mut(half))
+            .zip(numbers.par_chunks_exact_mut(half))
+            .enumerate()
+            .for_each(|(tile, ((amplitudes, inverse), numbers))| {
+                for (row, lane) in (0..n * lanes).map(|at| (at / lanes, at % lanes)) {
+                    let (i, j) = ((tile * lanes + lane) as i32, signed(row, n));
+                    let Some(mode) = Mode::new(cascade, gravity, index, [i, j]) else { continue };
+                    for (part, value) in mode.amplitudes.into_iter().enumerate() {
+                        amplitudes[(4 * row + part) * lanes + lane] = value as f32;
+                    }
+                    // Shared by kv and -kv.
+                    let at = row.min(n - row) * lanes + lane;
+                    inverse[at] = (cascade.choppiness / mode.length) as f32;
+                    let k = TAU / cascade.patch_size * mode.length;
+                    numbers[at] = harmonic(frequency(cascade, gravity, k).omega, period);
+                }
+            });
+        if !amplitudes.iter().all(|part| part.is_finite()) {
+            let value = format!("{}", cascade.amplitude);
+            let allowed = "a smaller factor, or less wind: the waves are too high to compute";
+            return Err(SeaError::Cascade { cascade: index as usize, key: "amplitude", value, allowed });
+        }
+        let mut harmonics = numbers.clone();
+        harmonics.sort_unstable();
+        harmonics.dedup();
+        // At most as many as there are sums of two squares below 2 (N/2)^2: half of what 16 bits count.
+        let mut harmonic = Aligned::zeros(numbers.len());
+        for (index, number) in harmonic.iter_mut().zip(&numbers) {
+            *index = harmonics.partition_point(|known| known < number) as u16;
+        }
+        Ok(Self { layout, amplitudes, inverse, harmonic, harmonics })
+    }
+
+    /// One of its tiles.
+    pub fn tile(&self, tile: usize) -> SpectrumTile<'_> {
+        let (n, lanes) = (self.layout.n, TILE);
+        let (whole, half) = (4 * n * lanes, (n / 2 + 1) * lanes);
+        SpectrumTile {
+            amplitudes: &self.amplitudes[tile * whole..][..whole],
+            inverse: &self.inverse[tile * half..][..half],
+            harmonic: &self.harmonic[tile * half..][..half],
+            first_ku: tile * lanes,
+        }
+    }
+}
+
+/// One wave vector and its opposite.
+struct Mode {
+    /// Factors of cos(w t) and sin(w t), eq (22), as (re, im, re, im), metres.
+    amplitudes: [f64; 4],
+    /// |k| in units of 2 pi / L.
+    length: f64,
+}
+
+impl Mode {
+    /// `None` where there is no wave.
+    fn new(cascade: &CascadeSettings, gravity: f64, index: u32, [i, j]: [i32; 2]) -> Option<Self> {
+        if j == -(cascade.resolution as i32) / 2 || (i == 0 && j == 0) {
+            return None;
         }
         let [a, b] = initial_amplitude(cascade, gravity, index, i, j);
         let [c, minus_d] = initial_amplitude(cascade, gravity, index, -i, -j);
         let d = -minus_d;
         if [a, b, c, d] == [0.0; 4] {
-            return;
+            return None;
         }
-        self.cos_re[lane] = (a + c) as f32;
-        self.cos_im[lane] = (b + d) as f32;
-        self.sin_re[lane] = (b - d) as f32;
-        self.sin_im[lane] = (c - a) as f32;
         let length = f64::from(i * i + j * j).sqrt();
-        self.unit_u[lane] = (f64::from(i) / length) as f32;
-        self.unit_v[lane] = (f64::from(j) / length) as f32;
-        let k = TAU / cascade.patch_size * length;
-        self.harmonic[lane] = harmonic(frequency(cascade, gravity, k).omega, period);
-    }
-
-    fn is_finite(&self) -> bool {
-        [self.cos_re, self.cos_im, self.sin_re, self.sin_im].iter().flatten().all(|part| part.is_finite())
+        Some(Self { amplitudes: [a + c, b + d, b - d, c - a], length })
     }
 }
 

@@ -5,65 +5,34 @@ use crate::jobs::{Stage, StageTimes};
 pub mod stage {
     /// (cos, sin) of every harmonic.
     pub const ROTATIONS: usize = 0;
-    /// Evolution and the first pass of the transform.
-    pub const ALONG_U: usize = 1;
-    /// Second pass.
-    pub const ALONG_V: usize = 2;
-    /// Displacement planes.
-    pub const DISPLACEMENT: usize = 3;
-    /// Foam's memory, at its own ticks only.
+    /// Evolution and the pass along columns.
+    pub const COLUMNS: usize = 1;
+    /// The pass along rows, gradients, and all mips that a band can make by itself.
+    pub const BANDS: usize = 2;
+    /// The mips above.
+    pub const TOP: usize = 3;
+    /// Foam's memory, at its own ticks only: the pass along rows and J.
     pub const FOAM: usize = 4;
-    /// Gradients, packing, level 0 of both maps.
-    pub const GRADIENT: usize = 5;
-    /// The levels above.
-    pub const MIPS: usize = 6;
 }
 
-/// Every stage of a step, in an order that respects the graph. The spectrum is made once, before the first step.
-pub const STAGES: [Stage; 7] = [
+/// Every stage of a step.
+pub const STAGES: [Stage; 5] = [
+    Stage { name: "rotations", reads: &["harmonics"], writes: &["rotations"], batch: "a cascade" },
     Stage {
-        name: "rotations",
-        reads: &["spectrum"],
-        writes: &["rotations"],
-        batch: "the table of one cascade",
-    },
-    Stage {
-        name: "evolve, transform along u",
-        reads: &["spectrum", "rotations"],
+        name: "columns",
+        reads: &["amplitudes", "rotations"],
         writes: &["half spectra"],
-        batch: "8 rows kv",
+        batch: "a tile of ku",
     },
     Stage {
-        name: "transform along v",
-        reads: &["half spectra"],
-        writes: &["column tiles"],
-        batch: "16 columns u",
+        name: "bands",
+        reads: &["half spectra", "memory"],
+        writes: &["displacement", "gradient", "memory", "tops"],
+        batch: "a band of rows",
     },
-    Stage {
-        name: "displacement",
-        reads: &["column tiles"],
-        writes: &["displacement planes"],
-        batch: "8 rows v",
-    },
-    Stage {
-        name: "foam memory",
-        reads: &["displacement planes"],
-        writes: &["foam memory"],
-        batch: "8 rows v",
-    },
-    Stage {
-        name: "gradient",
-        reads: &["displacement planes", "foam memory"],
-        writes: &["normals", "texels", "gradient map", "displacement map"],
-        batch: "8 rows v",
-    },
-    Stage {
-        name: "mips",
-        reads: &["normals", "texels"],
-        writes: &["gradient map", "displacement map"],
-        batch: "rows of one level holding at least 1024 texels",
-    },
+    Stage { name: "top", reads: &["tops"], writes: &["displacement", "gradient"], batch: "a cascade" },
+    Stage { name: "foam", reads: &["half spectra", "memory"], writes: &["memory"], batch: "a band of rows" },
 ];
 
-/// Times of the stages, summed over the cascades.
+/// Time spent in each of [`STAGES`].
 pub type Times = StageTimes<{ STAGES.len() }>;

@@ -48,7 +48,11 @@ impl Wave {
             rotation: self.towards,
             ..CascadeSettings::default()
         };
-        SeaMaps { time: 0.0, foam: FoamSettings::default(), cascades: vec![CascadeMaps::new(&cascade)] }
+        SeaMaps {
+            time: 0.0,
+            foam: FoamSettings::default(),
+            cascades: vec![CascadeMaps::new(&cascade, false)],
+        }
     }
 
     pub fn fill(&self, maps: &mut SeaMaps, time: f64) {

@@ -1,6 +1,6 @@
 //! Seas for the tests of the sea.
 #![allow(dead_code, clippy::expect_used, reason = "every test file uses some of these; a test may panic")]
-use swell::sea::{CascadeSettings, FoamSettings, Sea, SeaMaps, SeaSettings, Spectrum};
+use swell::sea::{CascadeMaps, CascadeSettings, FoamSettings, Planes, Sea, SeaMaps, SeaSettings, Spectrum};
 
 pub const SPECTRA: [Spectrum; 3] = [Spectrum::Phillips, Spectrum::Jonswap, Spectrum::Tma];
 
@@ -50,9 +50,14 @@ pub fn cascades() -> SeaSettings {
 
 pub fn maps(settings: &SeaSettings, time: f64) -> SeaMaps {
     let mut sea = Sea::new(settings).expect("valid settings");
-    let mut maps = sea.new_maps();
+    let mut maps = sea.new_maps_with_planes();
     sea.step(time, &mut maps).expect("a step");
     maps
+}
+
+/// The planes of full precision.
+pub fn planes(maps: &CascadeMaps) -> &Planes {
+    maps.planes.as_ref().expect("maps with planes")
 }
 
 pub fn rms(values: &[f32]) -> f64 {

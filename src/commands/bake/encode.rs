@@ -2,7 +2,7 @@
 use super::Format;
 use super::files::{Map, MapFile};
 use crate::output::{atomic::Sink, exr, npy};
-use crate::sea::CascadeMaps;
+use crate::sea::{CascadeMaps, Planes};
 use std::io;
 
 /// Writes the map that `file` is for.
@@ -14,10 +14,10 @@ pub(super) fn write(file: &MapFile, maps: &CascadeMaps, mut sink: &mut dyn Sink)
     let n = maps.resolution;
     match (file.map, file.format) {
         (Map::Displacement, Format::Npy) => {
-            npy::write(&mut sink, &[n as u64, n as u64, 3], displacement(maps).flatten())
+            npy::write(&mut sink, &[n as u64, n as u64, 3], displacement(maps)?.flatten())
         }
         (Map::Displacement, Format::Exr) => {
-            exr::write_rgb(&mut sink, [n, n], &displacement(maps).collect::<Vec<_>>())
+            exr::write_rgb(&mut sink, [n, n], &displacement(maps)?.collect::<Vec<_>>())
         }
         (Map::Gradient, Format::Npy) => {
             let shape = [maps.gradient.len() as u64, 4];
@@ -30,8 +30,10 @@ pub(super) fn write(file: &MapFile, maps: &CascadeMaps, mut sink: &mut dyn Sink)
     }
 }
 
-fn displacement(maps: &CascadeMaps) -> impl Iterator<Item = [f32; 3]> {
-    maps.du.iter().zip(&maps.height).zip(&maps.dv).map(|((&du, &height), &dv)| [du, height, dv])
+fn displacement(maps: &CascadeMaps) -> io::Result<impl Iterator<Item = [f32; 3]>> {
+    let without = || io::Error::other("the maps were made without planes of full precision");
+    let Planes { du, height, dv } = maps.planes.as_ref().ok_or_else(without)?;
+    Ok(du.iter().zip(height).zip(dv).map(|((&du, &height), &dv)| [du, height, dv]))
 }
 
 /// The inverse of eq (50).

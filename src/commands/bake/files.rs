@@ -63,7 +63,7 @@ impl Layout {
             Ok::<_, io::Error>(Shape { header, bytes: bytes.len() as u64 })
         };
         let shapes = sea.cascades.iter().map(|cascade| {
-            let flat = CascadeMaps::new(cascade);
+            let flat = CascadeMaps::new(cascade, true);
             Ok([shape(Map::Displacement, &flat)?, shape(Map::Gradient, &flat)?])
         });
         Ok(Self { format, shapes: shapes.collect::<io::Result<_>>()? })

@@ -145,7 +145,7 @@ pub fn bake(scene: &Scene, options: &BakeOptions) -> Result<BakeReport, BakeErro
                 none => {
                     let workers = Workers::new(options.threads)?;
                     let built = workers.run(|| Sea::new(&scene.sea))?;
-                    let maps = built.new_maps();
+                    let maps = built.new_maps_with_planes();
                     none.insert((workers, built, maps))
                 }
             };

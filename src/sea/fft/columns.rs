@@ -1,0 +1,138 @@
+//! The pass along columns: two transforms of R1 and R2 points, in place, as many columns at a time as a vector has lanes.
+use super::{
+    butterfly::{Complex, transform},
+    layout::{Layout, ROW, TILE},
+};
+use crate::sea::simd::{Kernel, Simd, Strided, StridedMut};
+
+/// Where the numbers of some columns come from.
+pub trait Source: Copy {
+    /// The rows kv = q + R2 p for p in 0..R1, of the lanes from `lane` on.
+    fn rows<S: Simd, const R1: usize, const R2: usize>(self, simd: S, q: usize, lane: usize) -> impl Rows<S>;
+}
+
+/// Some rows of a column.
+pub trait Rows<S: Simd>: Copy {
+    /// Row q + R2 `p`.
+    fn load(self, p: usize) -> Complex<S::F32>;
+}
+
+/// A tile that is stored as it is.
+#[derive(Clone, Copy, Debug)]
+pub struct Stored<'a> {
+    /// The tile.
+    pub tile: &'a [f32],
+}
+
+impl Source for Stored<'_> {
+    #[inline(always)]
+    fn rows<S: Simd, const R1: usize, const R2: usize>(self, simd: S, q: usize, lane: usize) -> impl Rows<S> {
+        StoredRows::new(simd, self.tile, q * ROW + lane, Layout::of(R1, R2).group_len(), R1)
+    }
+}
+
+/// Complex numbers at regular distances in a tile.
+#[derive(Clone, Copy, Debug)]
+pub struct StoredRows<'a, S> {
+    re: Strided<'a, S>,
+    im: Strided<'a, S>,
+}
+
+impl<'a, S: Simd> StoredRows<'a, S> {
+    /// `count` of them, the first at `first`.
+    #[inline(always)]
+    pub fn new(simd: S, tile: &'a [f32], first: usize, stride: usize, count: usize) -> Self {
+        let re = Strided::new(simd, tile, first, stride, count);
+        Self { re, im: Strided::new(simd, tile, first + TILE, stride, count) }
+    }
+}
+
+impl<S: Simd> Rows<S> for StoredRows<'_, S> {
+    #[inline(always)]
+    fn load(self, p: usize) -> Complex<S::F32> {
+        Complex { re: self.re.load(p), im: self.im.load(p) }
+    }
+}
+
+/// Transforms the columns of a tile, N = `R1` x `R2`.
+pub struct Columns<'a, T, const R1: usize, const R2: usize> {
+    /// Where they come from.
+    pub source: T,
+    /// [`super::twiddles::Twiddles::columns`].
+    pub twiddles: &'a [f32],
+    /// Where they go.
+    pub tile: &'a mut [f32],
+}
+
+impl<T: Source, const R1: usize, const R2: usize> Kernel for Columns<'_, T, R1, R2> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<S: Simd>(self, simd: S) {
+        let tile = &mut self.tile[..Layout::of(R1, R2).tile_len()];
+        let twiddles = &self.twiddles[..2 * R1 * R2];
+        for lane in (0..TILE).step_by(S::LANES) {
+            for (q, twiddles) in twiddles.chunks_exact(2 * R1).enumerate() {
+                first::<S, T, R1, R2>(simd, self.source, q, lane, twiddles, tile);
+            }
+            for p in 0..R1 {
+                second::<S, R1, R2>(simd, p, lane, tile);
+            }
+        }
+    }
+}
+
+/// R1 points, kv = `q` + R2 p over p, and the factors between the two transforms.
+#[inline(always)]
+fn first<S: Simd, T: Source, const R1: usize, const R2: usize>(
+    simd: S,
+    source: T,
+    q: usize,
+    lane: usize,
+    twiddles: &[f32],
+    tile: &mut [f32],
+) {
+    let rows = source.rows::<S, R1, R2>(simd, q, lane);
+    let mut x = [Complex { re: simd.splat(0.0), im: simd.splat(0.0) }; R1];
+    for (p, x) in x.iter_mut().enumerate() {
+        *x = rows.load(p);
+    }
+    transform(simd, &mut x);
+    for p in 1..R1 {
+        let (re, im) = (simd.splat(twiddles[2 * p]), simd.splat(twiddles[2 * p + 1]));
+        x[p] = x[p].times(Complex { re, im });
+    }
+    store(simd, &x, tile, q * ROW + lane, Layout::of(R1, R2).group_len());
+}
+
+/// R2 points, over q, in place.
+#[inline(always)]
+fn second<S: Simd, const R1: usize, const R2: usize>(simd: S, p: usize, lane: usize, tile: &mut [f32]) {
+    let at = p * Layout::of(R1, R2).group_len() + lane;
+    let mut x = [Complex { re: simd.splat(0.0), im: simd.splat(0.0) }; R2];
+    let rows = StoredRows::new(simd, tile, at, ROW, R2);
+    for (q, x) in x.iter_mut().enumerate() {
+        *x = rows.load(q);
+    }
+    transform(simd, &mut x);
+    store(simd, &x, tile, at, ROW);
+}
+
+/// Writes `x` to a tile, `stride` apart.
+#[inline(always)]
+fn store<S: Simd, const R: usize>(
+    simd: S,
+    x: &[Complex<S::F32>; R],
+    tile: &mut [f32],
+    first: usize,
+    stride: usize,
+) {
+    let mut re = StridedMut::new(simd, tile, first, stride, R);
+    for (p, x) in x.iter().enumerate() {
+        re.store(p, x.re);
+    }
+    let mut im = StridedMut::new(simd, tile, first + TILE, stride, R);
+    for (p, x) in x.iter().enumerate() {
+        im.store(p, x.im);
+    }
+}

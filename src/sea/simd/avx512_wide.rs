@@ -1,0 +1,262 @@
+//! Sixteen lanes of AVX-512, for long straight work on every texel: half as many instructions.
+use super::{Float, Kernel, SEED, Simd, avx512::Avx512, x86};
+use half::f16;
+use std::arch::x86_64::*;
+use std::ops::{Add, Mul, Neg, Sub};
+
+/// AVX-512 with its longest vectors: a value exists only where the processor has it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Avx512Wide(Avx512);
+
+/// Sixteen numbers.
+#[derive(Clone, Copy, Debug)]
+pub struct F32x16(__m512);
+
+const LANES: usize = 16;
+
+impl Avx512Wide {
+    /// The same processor.
+    #[inline(always)]
+    pub fn new(short: Avx512) -> Self {
+        Self(short)
+    }
+}
+
+/// A vector that holds these lane numbers.
+#[inline(always)]
+fn lanes(numbers: [i32; LANES]) -> __m512i {
+    // SAFETY: an array of 64 bytes is read; the callers are operations of vectors, which exist only with AVX-512.
+    unsafe { _mm512_loadu_epi32(numbers.as_ptr()) }
+}
+
+impl Simd for Avx512Wide {
+    type F32 = F32x16;
+    type Wide = Self;
+
+    #[inline(always)]
+    fn wide(self) -> Self {
+        self
+    }
+
+    #[inline(always)]
+    fn run<K: Kernel>(self, kernel: K) -> K::Output {
+        #[inline(never)]
+        #[target_feature(enable = "avx512f,avx512bw,avx512dq,avx512vl,avx2,fma,f16c")]
+        fn avx512_wide<K: Kernel>(simd: Avx512Wide, kernel: K) -> K::Output {
+            x86::align_stack();
+            kernel.run(simd)
+        }
+        // SAFETY: `self` exists, so the features were detected.
+        unsafe { avx512_wide(self, kernel) }
+    }
+
+    #[inline(always)]
+    fn splat(self, value: f32) -> F32x16 {
+        // SAFETY: `self` exists only with AVX-512.
+        F32x16(unsafe { _mm512_set1_ps(value) })
+    }
+
+    #[inline(always)]
+    unsafe fn read(self, from: *const f32) -> F32x16 {
+        // SAFETY: the caller vouches for the pointer; `self` exists only with AVX-512.
+        F32x16(unsafe { _mm512_loadu_ps(from) })
+    }
+
+    #[inline(always)]
+    fn pairs(self, table: &[[f32; 2]], indices: &[u16]) -> [F32x16; 2] {
+        let (first, second) = (x86::pairs(table, &indices[..4]), x86::pairs(table, &indices[4..8]));
+        let (third, fourth) = (x86::pairs(table, &indices[8..12]), x86::pairs(table, &indices[12..LANES]));
+        let join = |part: usize| {
+            // SAFETY: `self` exists only with AVX-512.
+            unsafe {
+                let low = _mm256_set_m128(second[part], first[part]);
+                let high = _mm256_set_m128(fourth[part], third[part]);
+                F32x16(_mm512_insertf32x8::<1>(_mm512_castps256_ps512(low), high))
+            }
+        };
+        [join(0), join(1)]
+    }
+
+    #[inline(always)]
+    fn transpose(self, rows: &mut [F32x16]) {
+        let rows = &mut rows[..LANES];
+        // SAFETY: `self` exists only with AVX-512.
+        unsafe {
+            // Within quarters of four lanes: 4 x 4 squares.
+            let mut squares = [_mm512_setzero_ps(); LANES];
+            for i in 0..4 {
+                let [a, b, c, d] = [rows[4 * i].0, rows[4 * i + 1].0, rows[4 * i + 2].0, rows[4 * i + 3].0];
+                let (ab, ab_high) = (_mm512_unpacklo_ps(a, b), _mm512_unpackhi_ps(a, b));
+                let (cd, cd_high) = (_mm512_unpacklo_ps(c, d), _mm512_unpackhi_ps(c, d));
+                squares[4 * i] = _mm512_shuffle_ps::<0x44>(ab, cd);
+                squares[4 * i + 1] = _mm512_shuffle_ps::<0xee>(ab, cd);
+                squares[4 * i + 2] = _mm512_shuffle_ps::<0x44>(ab_high, cd_high);
+                squares[4 * i + 3] = _mm512_shuffle_ps::<0xee>(ab_high, cd_high);
+            }
+            // Then the quarters change places.
+            for i in 0..4 {
+                let [a, b, c, d] = [squares[i], squares[4 + i], squares[8 + i], squares[12 + i]];
+                let (ab, ab_high) = (_mm512_shuffle_f32x4::<0x44>(a, b), _mm512_shuffle_f32x4::<0xee>(a, b));
+                let (cd, cd_high) = (_mm512_shuffle_f32x4::<0x44>(c, d), _mm512_shuffle_f32x4::<0xee>(c, d));
+                rows[i] = F32x16(_mm512_shuffle_f32x4::<0x88>(ab, cd));
+                rows[4 + i] = F32x16(_mm512_shuffle_f32x4::<0xdd>(ab, cd));
+                rows[8 + i] = F32x16(_mm512_shuffle_f32x4::<0x88>(ab_high, cd_high));
+                rows[12 + i] = F32x16(_mm512_shuffle_f32x4::<0xdd>(ab_high, cd_high));
+            }
+        }
+    }
+}
+
+/// Lanes 0, 2, .. of `a` and then of `b`.
+#[inline(always)]
+fn even(a: __m512, b: __m512) -> __m512 {
+    let at = lanes([0, 2, 4, 6, 8, 10, 12, 14, 16, 18, 20, 22, 24, 26, 28, 30]);
+    // SAFETY: vectors exist only with AVX-512.
+    unsafe { _mm512_permutex2var_ps(a, at, b) }
+}
+
+/// Lanes 1, 3, .. of `a` and then of `b`.
+#[inline(always)]
+fn odd(a: __m512, b: __m512) -> __m512 {
+    let at = lanes([1, 3, 5, 7, 9, 11, 13, 15, 17, 19, 21, 23, 25, 27, 29, 31]);
+    // SAFETY: vectors exist only with AVX-512.
+    unsafe { _mm512_permutex2var_ps(a, at, b) }
+}
+
+impl Add for F32x16 {
+    type Output = Self;
+    #[inline(always)]
+    fn add(self, other: Self) -> Self {
+        // SAFETY: vectors exist only with AVX-512.
+        Self(unsafe { _mm512_add_ps(self.0, other.0) })
+    }
+}
+
+impl Sub for F32x16 {
+    type Output = Self;
+    #[inline(always)]
+    fn sub(self, other: Self) -> Self {
+        // SAFETY: vectors exist only with AVX-512.
+        Self(unsafe { _mm512_sub_ps(self.0, other.0) })
+    }
+}
+
+impl Mul for F32x16 {
+    type Output = Self;
+    #[inline(always)]
+    fn mul(self, other: Self) -> Self {
+        // SAFETY: vectors exist only with AVX-512.
+        Self(unsafe { _mm512_mul_ps(self.0, other.0) })
+    }
+}
+
+impl Neg for F32x16 {
+    type Output = Self;
+    #[inline(always)]
+    fn neg(self) -> Self {
+        // SAFETY: vectors exist only with AVX-512.
+        Self(unsafe { _mm512_xor_ps(self.0, _mm512_set1_ps(-0.0)) })
+    }
+}
+
+impl Float for F32x16 {
+    const LANES: usize = LANES;
+
+    #[inline(always)]
+    fn mul_add(self, factor: Self, term: Self) -> Self {
+        // SAFETY: vectors exist only with AVX-512.
+        Self(unsafe { _mm512_fmadd_ps(self.0, factor.0, term.0) })
+    }
+
+    #[inline(always)]
+    fn neg_mul_add(self, factor: Self, term: Self) -> Self {
+        // SAFETY: vectors exist only with AVX-512.
+        Self(unsafe { _mm512_fnmadd_ps(self.0, factor.0, term.0) })
+    }
+
+    #[inline(always)]
+    fn max(self, other: Self) -> Self {
+        // SAFETY: vectors exist only with AVX-512.
+        Self(unsafe { _mm512_max_ps(self.0, other.0) })
+    }
+
+    #[inline(always)]
+    fn min(self, other: Self) -> Self {
+        // SAFETY: vectors exist only with AVX-512.
+        Self(unsafe { _mm512_min_ps(self.0, other.0) })
+    }
+
+    #[inline(always)]
+    fn abs(self) -> Self {
+        // SAFETY: vectors exist only with AVX-512.
+        Self(unsafe { _mm512_andnot_ps(_mm512_set1_ps(-0.0), self.0) })
+    }
+
+    #[inline(always)]
+    fn inverse_sqrt_seed(self) -> Self {
+        // SAFETY: vectors exist only with AVX-512.
+        unsafe {
+            let half = _mm512_srli_epi32::<1>(_mm512_castps_si512(self.0));
+            Self(_mm512_castsi512_ps(_mm512_sub_epi32(_mm512_set1_epi32(SEED as i32), half)))
+        }
+    }
+
+    #[inline(always)]
+    unsafe fn write(self, to: *mut f32) {
+        // SAFETY: the caller vouches for the pointer; vectors exist only with AVX-512.
+        unsafe { _mm512_storeu_ps(to, self.0) }
+    }
+
+    #[inline(always)]
+    fn mirrored(self, next: Self) -> Self {
+        let at = lanes([16, 15, 14, 13, 12, 11, 10, 9, 8, 7, 6, 5, 4, 3, 2, 1]);
+        // SAFETY: vectors exist only with AVX-512.
+        Self(unsafe { _mm512_permutex2var_ps(self.0, at, next.0) })
+    }
+
+    #[inline(always)]
+    fn pair_sums(self, other: Self, factor: Self) -> Self {
+        Self(odd(self.0, other.0)).mul_add(factor, Self(even(self.0, other.0)) * factor)
+    }
+
+    #[inline(always)]
+    fn store_halves(texels: [Self; 4], to: &mut [[f16; 4]]) {
+        // Element e of a texel's four is word 16 e + texel of the two joined pairs.
+        const fn words(first: i16) -> [i16; 32] {
+            let mut words = [0; 32];
+            let mut i = 0;
+            while i < 32 {
+                words[i] = first + i as i16 / 4 + 16 * (i as i16 % 4);
+                i += 1;
+            }
+            words
+        }
+        const LOW: [i16; 32] = words(0);
+        const HIGH: [i16; 32] = words(8);
+        let to = to[..LANES].as_mut_ptr().cast::<i16>();
+        // SAFETY: sixteen texels of eight bytes are written, and there are; vectors exist only with AVX-512.
+        unsafe {
+            const NEAREST: i32 = _MM_FROUND_TO_NEAREST_INT;
+            let (a, b) = (_mm512_cvtps_ph::<NEAREST>(texels[0].0), _mm512_cvtps_ph::<NEAREST>(texels[1].0));
+            let (c, d) = (_mm512_cvtps_ph::<NEAREST>(texels[2].0), _mm512_cvtps_ph::<NEAREST>(texels[3].0));
+            let ab = _mm512_inserti64x4::<1>(_mm512_castsi256_si512(a), b);
+            let cd = _mm512_inserti64x4::<1>(_mm512_castsi256_si512(c), d);
+            let (low, high) = (_mm512_loadu_epi16(LOW.as_ptr()), _mm512_loadu_epi16(HIGH.as_ptr()));
+            _mm512_storeu_epi16(to, _mm512_permutex2var_epi16(ab, low, cd));
+            _mm512_storeu_epi16(to.add(32), _mm512_permutex2var_epi16(ab, high, cd));
+        }
+    }
+
+    #[inline(always)]
+    fn store_bytes(texels: [Self; 4], to: &mut [[u8; 4]]) {
+        let to = to[..LANES].as_mut_ptr().cast::<i32>();
+        // SAFETY: sixteen texels of four bytes are written, and there are; vectors exist only with AVX-512.
+        unsafe {
+            let (a, b) = (_mm512_cvtps_epi32(texels[0].0), _mm512_cvtps_epi32(texels[1].0));
+            let (c, d) = (_mm512_cvtps_epi32(texels[2].0), _mm512_cvtps_epi32(texels[3].0));
+            let low = _mm512_or_si512(a, _mm512_slli_epi32::<8>(b));
+            let high = _mm512_or_si512(_mm512_slli_epi32::<16>(c), _mm512_slli_epi32::<24>(d));
+            _mm512_storeu_epi32(to, _mm512_or_si512(low, high));
+        }
+    }
+}

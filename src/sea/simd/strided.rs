@@ -1,0 +1,139 @@
+//! Vectors at regular distances in a slice, whose bounds are checked once for all.
+use super::{Float, Simd};
+use std::marker::PhantomData;
+
+/// Some vectors to read.
+#[derive(Clone, Copy, Debug)]
+pub struct Strided<'a, S> {
+    simd: S,
+    first: *const f32,
+    stride: usize,
+    count: usize,
+    reach: usize,
+    slice: PhantomData<&'a [f32]>,
+}
+
+impl<'a, S: Simd> Strided<'a, S> {
+    /// `count` vectors of `from`, the first at `first`, each `stride` after the one before.
+    ///
+    /// # Panics
+    /// When they are not all within the slice.
+    #[inline(always)]
+    pub fn new(simd: S, from: &'a [f32], first: usize, stride: usize, count: usize) -> Self {
+        Self::reaching(simd, from, first, stride, count, 0)
+    }
+
+    /// As [`Strided::new`], and with every vector those up to `reach` numbers after it.
+    ///
+    /// # Panics
+    /// As it.
+    #[inline(always)]
+    pub fn reaching(
+        simd: S,
+        from: &'a [f32],
+        first: usize,
+        stride: usize,
+        count: usize,
+        reach: usize,
+    ) -> Self {
+        check(from.len(), first, stride, count, S::LANES + reach);
+        // SAFETY: `first` is within the slice.
+        Self { simd, first: unsafe { from.as_ptr().add(first) }, stride, count, reach, slice: PhantomData }
+    }
+
+    /// Vector `index`.
+    ///
+    /// # Panics
+    /// When there is none: where the number of vectors is known to the compiler, so is the answer.
+    #[inline(always)]
+    pub fn load(self, index: usize) -> S::F32 {
+        self.load_after(index, 0)
+    }
+
+    /// The vector `offset` numbers after vector `index`.
+    ///
+    /// # Panics
+    /// As [`Strided::load`], and when `offset` is beyond the reach.
+    #[inline(always)]
+    pub fn load_after(self, index: usize, offset: usize) -> S::F32 {
+        assert!(index < self.count && offset <= self.reach);
+        // SAFETY: every vector up to `count`, and what it reaches, was checked to be within the slice.
+        unsafe { self.simd.read(self.first.add(index * self.stride + offset)) }
+    }
+}
+
+/// Some vectors to write.
+#[derive(Debug)]
+pub struct StridedMut<'a, S> {
+    first: *mut f32,
+    stride: usize,
+    count: usize,
+    reach: usize,
+    slice: PhantomData<(&'a mut [f32], S)>,
+}
+
+impl<'a, S: Simd> StridedMut<'a, S> {
+    /// As [`Strided::new`].
+    ///
+    /// # Panics
+    /// As it.
+    #[inline(always)]
+    pub fn new(simd: S, to: &'a mut [f32], first: usize, stride: usize, count: usize) -> Self {
+        Self::reaching(simd, to, first, stride, count, 0)
+    }
+
+    /// As [`Strided::reaching`].
+    ///
+    /// # Panics
+    /// As it.
+    #[inline(always)]
+    pub fn reaching(
+        _: S,
+        to: &'a mut [f32],
+        first: usize,
+        stride: usize,
+        count: usize,
+        reach: usize,
+    ) -> Self {
+        check(to.len(), first, stride, count, S::LANES + reach);
+        // SAFETY: `first` is within the slice.
+        Self { first: unsafe { to.as_mut_ptr().add(first) }, stride, count, reach, slice: PhantomData }
+    }
+
+    /// Writes vector `index`.
+    ///
+    /// # Panics
+    /// As [`Strided::load`].
+    #[inline(always)]
+    pub fn store(&mut self, index: usize, value: S::F32) {
+        self.store_after(index, 0, value);
+    }
+
+    /// Writes the vector `offset` numbers after vector `index`.
+    ///
+    /// # Panics
+    /// As [`Strided::load_after`].
+    #[inline(always)]
+    pub fn store_after(&mut self, index: usize, offset: usize, value: S::F32) {
+        assert!(index < self.count && offset <= self.reach);
+        // SAFETY: every vector up to `count`, and what it reaches, was checked to be within the slice.
+        unsafe { value.write(self.first.add(index * self.stride + offset)) }
+    }
+
+    /// The vector `offset` numbers after vector `index`.
+    ///
+    /// # Panics
+    /// As [`Strided::load_after`].
+    #[inline(always)]
+    pub fn load_after(&self, simd: S, index: usize, offset: usize) -> S::F32 {
+        assert!(index < self.count && offset <= self.reach);
+        // SAFETY: every vector up to `count`, and what it reaches, was checked to be within the slice.
+        unsafe { simd.read(self.first.add(index * self.stride + offset)) }
+    }
+}
+
+#[inline(always)]
+fn check(len: usize, first: usize, stride: usize, count: usize, lanes: usize) {
+    let last = count.checked_sub(1).map(|last| first + last * stride + lanes);
+    assert!(last.is_some_and(|last| last <= len), "vectors beyond the end of a slice");
+}

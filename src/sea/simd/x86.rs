@@ -1,0 +1,33 @@
+//! What SSE and AVX2 share.
+use std::arch::x86_64::*;
+
+/// The pairs of `table` at four `indices`: their first numbers, their second numbers.
+///
+/// # Panics
+/// When there are fewer indices, or one is beyond the table.
+#[inline(always)]
+pub fn pairs(table: &[[f32; 2]], indices: &[u16]) -> [__m128; 2] {
+    let indices = &indices[..4];
+    let first: *const f64 = table[usize::from(indices[0])].as_ptr().cast();
+    let second: *const f64 = table[usize::from(indices[1])].as_ptr().cast();
+    let third: *const f64 = table[usize::from(indices[2])].as_ptr().cast();
+    let fourth: *const f64 = table[usize::from(indices[3])].as_ptr().cast();
+    // SAFETY: each pointer is to a pair, 64 bits, that is within the table; SSE2 is part of x86-64.
+    unsafe {
+        let low = _mm_castpd_ps(_mm_loadh_pd(_mm_load_sd(first), second));
+        let high = _mm_castpd_ps(_mm_loadh_pd(_mm_load_sd(third), fourth));
+        [_mm_shuffle_ps::<0x88>(low, high), _mm_shuffle_ps::<0xdd>(low, high)]
+    }
+}
+
+/// Makes the compiler align the stack of the function it is inlined into for vectors.
+///
+/// It decides on that before it knows which registers it will have to spill. Without anything on the stack that asks for
+/// it, spilled vectors lie across cache lines, and every other access to them is two.
+#[inline(always)]
+pub fn align_stack() {
+    #[repr(align(64))]
+    struct Line(#[allow(dead_code, reason = "only its place counts")] u8);
+    let mut line = Line(0);
+    std::hint::black_box(&mut line);
+}
