@@ -1,7 +1,7 @@
 //! The height query against the maps that are drawn.
 mod sea_common;
 use sea_common::{cascades, maps, settings};
-use swell::sea::{Spectrum, Surface};
+use swell::sea::{Query, SeaMaps, Spectrum, Surface};
 
 #[test]
 fn at_rest_on_a_grid_point_is_the_texel() {
@@ -81,6 +81,50 @@ fn a_folded_sea_is_answered_honestly() {
         folded += u32::from(above.residual > 1e-3);
     }
     assert!(folded < 100, "{folded} of 2000 points not found");
+}
+
+/// Points all over, some of them whole texels, their number no multiple of any number of lanes.
+fn points() -> Vec<[f64; 2]> {
+    (0..1003)
+        .map(f64::from)
+        .map(|step| [step * 1.37 - 500.0, if step % 10.0 == 0.0 { step } else { step * step % 997.0 * 0.71 }])
+        .collect()
+}
+
+#[test]
+fn many_at_a_time_are_answered_as_one_alone() {
+    let mut folded = settings(Spectrum::Jonswap);
+    folded.cascades[0].choppiness = 4.0;
+    for sea in [settings(Spectrum::Jonswap), cascades(), folded] {
+        let maps = maps(&sea, 31.0);
+        let (query, points) = (Query::new(&maps), points());
+        let alone: Vec<_> = points.iter().map(|&[x, z]| Surface::above(&maps, x, z)).collect();
+        let mut together = vec![Surface::at_rest(&maps, 0.0, 0.0); points.len()];
+        query.above_many(&points, &mut together);
+        assert_eq!(alone, together);
+        // In another company.
+        let mut later = vec![0.0; points.len() - 3];
+        query.heights(&points[3..], &mut later);
+        for (alone, height) in alone[3..].iter().zip(later) {
+            assert!((alone.height() - height).abs() < 1e-9, "{alone:?} {height}");
+        }
+    }
+}
+
+#[test]
+fn no_point_is_answered_with_no_number_and_harms_no_other() {
+    let maps = maps(&cascades(), 3.0);
+    let mut heights = [0.0; 3];
+    Query::new(&maps).heights(&[[1.0, 2.0], [f64::NAN, 0.0], [3.0, f64::INFINITY]], &mut heights);
+    assert!((heights[0] - Surface::above(&maps, 1.0, 2.0).height()).abs() < 1e-9);
+    assert!(heights[1].is_nan() && heights[2].is_nan());
+}
+
+#[test]
+fn without_cascades_the_sea_is_flat() {
+    let flat = SeaMaps { cascades: Vec::new(), ..maps(&settings(Spectrum::Jonswap), 0.0) };
+    let surface = Surface::above(&flat, 12.5, -7.0);
+    assert_eq!((surface.position, surface.normal), ([12.5, 0.0, -7.0], [0.0, 1.0, 0.0]));
 }
 
 #[test]

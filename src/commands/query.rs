@@ -1,7 +1,7 @@
 //! `swell query`: the surface at points, as JSON.
 use crate::jobs::{JobsError, Workers};
 use crate::scene::Scene;
-use crate::sea::{Sea, SeaError, Surface};
+use crate::sea::{Query, Sea, SeaError};
 use serde::Serialize;
 use std::io::{self, Write};
 use std::str::FromStr;
@@ -72,10 +72,11 @@ pub fn query(scene: &Scene, time: f64, points: &[Point], mut out: impl Write) ->
         sea.step(time, &mut maps)?;
         Ok::<_, SeaError>(maps)
     })?;
+    let sea = Query::new(&maps);
     for point in points {
         let surface = match *point {
-            Point::At([x, z]) => Surface::above(&maps, x, z),
-            Point::Rest([x, z]) => Surface::at_rest(&maps, x, z),
+            Point::At([x, z]) => sea.above(x, z),
+            Point::Rest([x, z]) => sea.at_rest(x, z),
         };
         let answer = Answer {
             time,

@@ -1,11 +1,11 @@
 //! The water under a deck, as the plane that fits it best.
 use super::about_y;
-use crate::sea::{SeaMaps, Surface};
+use crate::sea::{Query, SeaMaps};
 use glam::{DVec2, DVec3, Vec3Swizzles};
 
 /// Points along each side of the deck, in the middles of equal cells. A wave as long as the deck then averages to nothing,
 /// as it does over the whole deck; points on the deck's edges would all stand on crests together.
-pub const PROBES: u32 = 4;
+pub const PROBES: usize = 4;
 
 /// A plane through a point: height above the sea at rest there, and slopes.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -24,23 +24,22 @@ impl Plane {
     /// along an axis is sum(x h) / sum(x^2).
     pub fn under(maps: &SeaMaps, at: DVec2, heading: f64, [length, width]: [f64; 2]) -> Self {
         let turn = about_y(heading);
-        let place = |index: u32, side: f64| side * ((f64::from(index) + 0.5) / f64::from(PROBES) - 0.5);
+        let place = |index: usize, side: f64| side * ((index as f64 + 0.5) / PROBES as f64 - 0.5);
+        let mut locals = [DVec2::ZERO; PROBES * PROBES];
+        for (index, local) in locals.iter_mut().enumerate() {
+            *local = DVec2::new(place(index % PROBES, width), place(index / PROBES, length));
+        }
+        let probes = locals.map(|local| (at + (turn * DVec3::new(local.x, 0.0, local.y)).xz()).to_array());
+        let mut heights = [0.0; PROBES * PROBES];
+        Query::new(maps).heights(&probes, &mut heights);
         let (mut sum, mut moment, mut square) = (0.0, DVec2::ZERO, DVec2::ZERO);
-        for row in 0..PROBES {
-            for column in 0..PROBES {
-                let local = DVec2::new(place(column, width), place(row, length));
-                let probe = at + (turn * DVec3::new(local.x, 0.0, local.y)).xz();
-                let height = Surface::above(maps, probe.x, probe.y).height();
-                sum += height;
-                moment += local * height;
-                square += local * local;
-            }
+        for (local, height) in locals.into_iter().zip(heights) {
+            sum += height;
+            moment += local * height;
+            square += local * local;
         }
         let slope = moment / square;
-        Self {
-            height: sum / f64::from(PROBES * PROBES),
-            slope: (turn * DVec3::new(slope.x, 0.0, slope.y)).xz(),
-        }
+        Self { height: sum / heights.len() as f64, slope: (turn * DVec3::new(slope.x, 0.0, slope.y)).xz() }
     }
 
     /// Whether every part is a number.

@@ -35,7 +35,7 @@ pub use ahead::SeaAhead;
 pub use error::SeaError;
 pub use maps::{CascadeMaps, Planes, SeaMaps};
 pub use mips::{mip_levels, mip_offset};
-pub use query::Surface;
+pub use query::{Query, Surface};
 pub use settings::{CascadeSettings, FoamSettings, NormalKind, SeaSettings, Spectrum, split_bands};
 pub use spectrum::expected_variance;
 

@@ -1,0 +1,211 @@
+//! The surface at a point, from the very maps that are drawn. See `docs/query.md`.
+mod grid;
+mod newton;
+mod sample;
+mod search;
+
+use super::{
+    foam::foam,
+    maps::SeaMaps,
+    settings::{FoamSettings, MAX_CASCADES},
+};
+use grid::Grid;
+use newton::{LANES, Newton};
+use sample::{Sample, norm, normal};
+use search::search;
+
+/// Most steps of one inversion.
+pub const MAX_ITERATIONS: u32 = 64;
+/// Horizontal error, metres, at which an inversion is content.
+pub const TOLERANCE: f64 = 1e-7;
+
+/// A point of the sea's surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Surface {
+    /// Where the point rests, world (x, z), metres.
+    pub rest: [f64; 2],
+    /// Where it is, world (x, y, z), metres.
+    pub position: [f64; 3],
+    /// Unit normal of the displaced surface, world (x, y, z).
+    pub normal: [f64; 3],
+    /// `position` less the rest position, metres.
+    pub displacement: [f64; 3],
+    /// Foam cover, 0..=1.
+    pub foam: f64,
+    /// Horizontal distance between `position` and the point asked for, metres; 0 for [`Surface::at_rest`].
+    pub residual: f64,
+    /// Steps that it took.
+    pub iterations: u32,
+}
+
+impl Surface {
+    /// Height above the sea at rest, metres.
+    pub fn height(&self) -> f64 {
+        self.position[1]
+    }
+
+    /// [`Query::at_rest`] of one point.
+    pub fn at_rest(maps: &SeaMaps, x: f64, z: f64) -> Self {
+        Query::new(maps).at_rest(x, z)
+    }
+
+    /// [`Query::above`] of one point.
+    pub fn above(maps: &SeaMaps, x: f64, z: f64) -> Self {
+        Query::new(maps).above(x, z)
+    }
+}
+
+/// A step's maps, ready to be asked about many points. Making one costs about as much as asking about one.
+///
+/// Positions are world (x, z), metres, finite and within 1e9; one that is not a number is answered with none. Maps are
+/// those of a [`super::Sea`]: at most [`MAX_CASCADES`], of 2^m x 2^m points.
+#[derive(Clone, Copy, Debug)]
+pub struct Query<'a> {
+    grids: [Grid<'a>; MAX_CASCADES],
+    /// How each cascade lies to the first.
+    frames: [Frame; MAX_CASCADES],
+    /// How many there are.
+    count: usize,
+    foam: &'a FoamSettings,
+}
+
+/// How a cascade lies to the first one.
+#[derive(Clone, Copy, Debug, Default)]
+struct Frame {
+    /// (cos, sin) of its own rotation less the first's.
+    turn: [f64; 2],
+    /// `turn` times its texels for each texel of the first.
+    follow: [f64; 2],
+}
+
+impl<'a> Query<'a> {
+    /// Works out what all queries share.
+    pub fn new(maps: &'a SeaMaps) -> Self {
+        let mut grids = [Grid::FLAT; MAX_CASCADES];
+        for (grid, maps) in grids.iter_mut().zip(&maps.cascades) {
+            *grid = Grid::new(maps);
+        }
+        let [cos, sin] = grids[0].turn;
+        let frames = grids.each_ref().map(|grid| {
+            let [own_cos, own_sin] = grid.turn;
+            let turn = [own_cos * cos + own_sin * sin, own_sin * cos - own_cos * sin];
+            Frame { turn, follow: turn.map(|part| part * grid.per_metre / grids[0].per_metre) }
+        });
+        // No cascade at all is one that is flat.
+        Self { grids, frames, count: maps.cascades.len().clamp(1, MAX_CASCADES), foam: &maps.foam }
+    }
+
+    /// The point of the surface whose rest position is (`x`, `z`).
+    pub fn at_rest(&self, x: f64, z: f64) -> Surface {
+        self.surface([x, z], [x, z], 1)
+    }
+
+    /// The point of the surface above or below (`x`, `z`): the q with q + D(q) = (x, z).
+    ///
+    /// Newton's method on the piecewise bilinear field that is drawn; where the sea is so steep that it fails, with
+    /// damped steps and from several places. At most [`MAX_ITERATIONS`] steps in all; `residual` says how well they
+    /// went. Where the sea has folded over (J < 0) there are several such points and one of them is returned.
+    pub fn above(&self, x: f64, z: f64) -> Surface {
+        let mut newton = Newton::<1>::new(self);
+        newton.solve(&[[x], [z]]);
+        self.found(&newton, 0, [x, z])
+    }
+
+    /// [`Self::above`] for each of `points`, with the same answers to the bit, sooner: several at a time.
+    ///
+    /// # Panics
+    /// When `points` and `surfaces` differ in length.
+    pub fn above_many(&self, points: &[[f64; 2]], surfaces: &mut [Surface]) {
+        self.in_lanes(points, surfaces, |newton, targets, surfaces| {
+            for (lane, (surface, &target)) in surfaces.iter_mut().zip(targets).enumerate() {
+                *surface = self.found(newton, lane, target);
+            }
+        });
+    }
+
+    /// Heights alone of [`Self::above`] for each of `points`, metres, to the last few bits of a double: the least that
+    /// buoyancy wants, and the cheapest.
+    ///
+    /// # Panics
+    /// When `points` and `heights` differ in length.
+    pub fn heights(&self, points: &[[f64; 2]], heights: &mut [f64]) {
+        self.in_lanes(points, heights, |newton, targets, heights| {
+            for (height, solved) in heights.iter_mut().zip(newton.heights()) {
+                *height = solved;
+            }
+            if (0..LANES).any(|lane| !newton.found(lane)) {
+                self.search_heights(newton, targets, heights);
+            }
+        });
+    }
+
+    #[cold]
+    fn search_heights(&self, newton: &Newton<'_, 'a, LANES>, targets: &[[f64; 2]], heights: &mut [f64]) {
+        for (lane, (height, &target)) in heights.iter_mut().zip(targets).enumerate() {
+            if !newton.found(lane) {
+                let (q, _) = search(self, target, newton.iterations(lane));
+                *height = Sample::at(self, q).value.displacement[1];
+            }
+        }
+    }
+
+    /// Solves [`LANES`] points at a time and has `take` fill their answers.
+    #[inline(always)]
+    fn in_lanes<T>(
+        &self,
+        points: &[[f64; 2]],
+        answers: &mut [T],
+        mut take: impl FnMut(&Newton<'_, 'a, LANES>, &[[f64; 2]], &mut [T]),
+    ) {
+        assert_eq!(points.len(), answers.len(), "one answer for each point");
+        let mut newton = Newton::new(self);
+        for (points, answers) in points.chunks(LANES).zip(answers.chunks_mut(LANES)) {
+            let mut targets = [[0.0; LANES]; 2];
+            for lane in 0..LANES {
+                // Idle lanes ask what the last one does.
+                [targets[0][lane], targets[1][lane]] = points[lane.min(points.len() - 1)];
+            }
+            newton.solve(&targets);
+            take(&newton, points, answers);
+        }
+    }
+
+    /// The surface at what a lane has come to, or what a search finds.
+    fn found<const L: usize>(&self, newton: &Newton<'_, 'a, L>, lane: usize, target: [f64; 2]) -> Surface {
+        let iterations = newton.iterations(lane);
+        let (q, iterations) = if newton.found(lane) {
+            let [x, z] = newton.offset(lane);
+            ([target[0] + x, target[1] + z], iterations)
+        } else {
+            search(self, target, iterations)
+        };
+        self.surface(q, target, iterations)
+    }
+
+    fn surface(&self, q: [f64; 2], target: [f64; 2], iterations: u32) -> Surface {
+        let sample = Sample::at(self, q);
+        let [x, height, z] = sample.value.displacement;
+        Surface {
+            rest: q,
+            position: [q[0] + x, height, q[1] + z],
+            normal: normal(self, q),
+            displacement: [x, height, z],
+            foam: foam(self.foam, sample.value.compression),
+            residual: if target == q { 0.0 } else { norm(sample.miss(q, target)) },
+            iterations,
+        }
+    }
+
+    fn grids(&self) -> &[Grid<'a>] {
+        &self.grids[..self.count]
+    }
+
+    fn first(&self) -> &Grid<'a> {
+        &self.grids[0]
+    }
+
+    /// The cascades after the first, and how they lie to it.
+    fn others(&self) -> impl Iterator<Item = (&Grid<'a>, &Frame)> {
+        self.grids().iter().zip(&self.frames).skip(1)
+    }
+}
