@@ -3,6 +3,10 @@
 //! A stage is a parallel-for over disjoint pieces of its output, so its result cannot depend on the number of threads
 //! or on their order. Stages of one chain follow each other; chains that share nothing (the cascades of a sea) run
 //! side by side, and a worker that waits for one helps with another: nobody blocks.
+mod handover;
+
+pub use handover::{Giver, Taker, handover};
+
 use std::{
     sync::{
         Arc, Mutex, PoisonError,
@@ -33,7 +37,8 @@ pub struct Workers {
 }
 
 impl Workers {
-    /// Starts `threads` threads; 0 starts one per processor available.
+    /// Starts `threads` threads; 0 starts one per processor that the calling thread may use: those of its affinity mask,
+    /// or fewer where the process's share of time (a cgroup's quota) is worth fewer. Threads inherit the mask.
     ///
     /// # Errors
     /// [`JobsError::Start`] when the operating system gives no more threads.
@@ -53,6 +58,8 @@ impl Workers {
             })
             .build()
             .map_err(|source| JobsError::Start { threads, source })?;
+        // Each answers, so each has started and said its number.
+        pool.broadcast(|_| ());
         Ok(Self { pool, kernel_ids })
     }
 
@@ -61,8 +68,8 @@ impl Workers {
         self.pool.current_num_threads()
     }
 
-    /// The kernel's numbers of the threads that have started so far, for whoever tells a scheduler about them; none where
-    /// threads have no such number.
+    /// The kernel's numbers of the threads, for whoever tells a scheduler about them; none where threads have no such
+    /// number. Why not a function that each thread calls as it starts: `docs/jobs.md`.
     pub fn kernel_ids(&self) -> Vec<u32> {
         self.kernel_ids.lock().unwrap_or_else(PoisonError::into_inner).clone()
     }

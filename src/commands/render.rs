@@ -4,10 +4,16 @@ use super::{Clock, CommandError, Frames, Progress};
 use crate::draw::Look;
 use crate::gpu::Validation;
 use crate::host::{Finished, Headless, HeadlessSettings, HostError, cpu_time};
-use crate::output::{OutputError, atomic::write_whole, exr, png};
+use crate::jobs::{Giver, Taker, handover};
+use crate::output::{
+    OutputError,
+    atomic::{write_bytes, write_whole},
+    exr,
+    png::PngEncoder,
+};
 use crate::scene::Scene;
+use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
-use std::sync::mpsc::{Receiver, Sender, SyncSender, channel, sync_channel};
 use std::time::{Duration, Instant};
 use std::{fs, thread};
 
@@ -35,6 +41,9 @@ pub struct RenderOptions {
     /// Where compiled pipelines are kept.
     pub cache: Option<PathBuf>,
 }
+
+/// Buffers for pictures between the frame loop and the writer.
+const PICTURES: usize = 3;
 
 /// Frames that only warm up, where a clip is long enough to spare them.
 const WARM_UP: usize = 10;
@@ -66,16 +75,19 @@ pub fn render(scene: &Scene, options: &RenderOptions) -> Result<(), CommandError
     let mut host = Headless::new(scene, &settings, options.clock.time(frames.start))?;
     let mut cost = Cost::default();
     let mut progress = Progress::new("drawing", options.frames.count());
-    let writer = Writer { options, format };
+    let writer = Writer { options, format, encoder: PngEncoder::default(), temporary: PathBuf::new() };
     thread::scope(|scope| -> Result<(), CommandError> {
-        // Two pictures in flight: one being compressed, one being filled. Buffers come back to be used again.
-        let (pictures, queue) = sync_channel(1);
-        let (give_back, spare) = channel();
-        let thread = scope.spawn(|| writer.run(queue, give_back));
+        // One picture being compressed, one waiting for that, one being filled. Buffers come back to be used again.
+        let (mut pictures, queue) = handover(1);
+        let (mut give_back, mut spare) = handover(PICTURES);
+        for _ in 0..PICTURES {
+            let _there_is_room = give_back.give(Vec::with_capacity(writer.bytes()));
+        }
+        let thread = scope.spawn(move || writer.run(queue, give_back));
         let drawn = host.run(frames.map(|frame| options.clock.time(frame)), |frame| {
             cost.frame(&frame);
             progress.step();
-            hand_over(&frame, &pictures, &spare)
+            hand_over(&frame, &mut pictures, &mut spare)
         });
         drop(pictures);
         let written = thread.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic));
@@ -90,13 +102,13 @@ pub fn render(scene: &Scene, options: &RenderOptions) -> Result<(), CommandError
 
 fn hand_over(
     frame: &Finished<'_>,
-    pictures: &SyncSender<(usize, Vec<u8>)>,
-    spare: &Receiver<Vec<u8>>,
+    pictures: &mut Giver<(usize, Vec<u8>)>,
+    spare: &mut Taker<Vec<u8>>,
 ) -> Result<(), HostError> {
-    let mut pixels = spare.try_recv().unwrap_or_default();
+    let mut pixels = spare.take().ok_or(HostError::WriterGone)?;
     pixels.clear();
     pixels.extend_from_slice(frame.pixels);
-    pictures.send((frame.index, pixels)).map_err(|_| HostError::WriterGone)
+    pictures.give((frame.index, pixels)).map_err(|_| HostError::WriterGone)
 }
 
 /// What the output's name asks for.
@@ -127,21 +139,37 @@ impl Format {
 struct Writer<'a> {
     options: &'a RenderOptions,
     format: Format,
+    encoder: PngEncoder,
+    /// Memory for the names of files that are not whole yet.
+    temporary: PathBuf,
 }
 
 impl Writer<'_> {
-    fn run(&self, queue: Receiver<(usize, Vec<u8>)>, give_back: Sender<Vec<u8>>) -> Result<(), OutputError> {
-        for (index, pixels) in queue {
+    fn run(
+        mut self,
+        mut queue: Taker<(usize, Vec<u8>)>,
+        mut give_back: Giver<Vec<u8>>,
+    ) -> Result<(), OutputError> {
+        let mut path = self.options.out.clone();
+        if self.format == Format::Frames {
+            path.push("frame");
+        }
+        let mut name = String::new();
+        while let Some((index, pixels)) = queue.take() {
             match self.format {
                 Format::Frames => {
                     let number = self.options.frames.indices().start + index as u64;
-                    self.picture(&self.options.out.join(format!("frame_{number:04}.png")), &pixels)?;
+                    name.clear();
+                    // Text takes whatever is written to it.
+                    let _ = write!(name, "frame_{number:04}.png");
+                    path.set_file_name(&name);
+                    self.picture(&path, &pixels)?;
                 }
-                Format::Picture => self.picture(&self.options.out, &pixels)?,
-                Format::Heights => self.heights(&self.options.out, &pixels)?,
+                Format::Picture => self.picture(&path, &pixels)?,
+                Format::Heights => self.heights(&path, &pixels)?,
             }
             // Without anyone to take it back the loop is over, and the buffer goes.
-            let _over = give_back.send(pixels);
+            let _over = give_back.give(pixels);
         }
         Ok(())
     }
@@ -150,10 +178,17 @@ impl Writer<'_> {
         if self.options.stereo { 2 } else { 1 }
     }
 
-    fn picture(&self, path: &Path, pixels: &[u8]) -> Result<(), OutputError> {
-        write_whole(path, |mut sink| {
-            png::write_side_by_side(&mut sink, self.options.size, self.views(), pixels)
-        })
+    /// Of a frame's pixels.
+    fn bytes(&self) -> usize {
+        let [width, height] = self.options.size.map(|side| side as usize);
+        4 * width * height * self.views() as usize
+    }
+
+    fn picture(&mut self, path: &Path, pixels: &[u8]) -> Result<(), OutputError> {
+        let views = self.views();
+        let file = self.encoder.side_by_side(self.options.size, views, pixels);
+        let file = file.map_err(|source| OutputError::Write { path: path.to_owned(), source })?;
+        write_bytes(path, file, &mut self.temporary)
     }
 
     /// Height in R, G and B alike, as most readers want three channels; not a number where no sea was drawn.

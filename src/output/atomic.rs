@@ -3,10 +3,10 @@
 //! A file is written beside its final place as `.NAME.PROCESS-NUMBER.part` and renamed when complete: on one file system a
 //! rename happens at once or not at all, so neither a kill nor a full disk leaves half a file under a final name.
 use super::OutputError;
-use std::ffi::OsString;
+use std::fmt::Write as _;
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Seek, Write};
-use std::path::{Path, PathBuf};
+use std::path::{MAIN_SEPARATOR_STR, Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Duration;
 
@@ -24,17 +24,34 @@ pub fn write_whole(
     path: &Path,
     write: impl FnOnce(&mut dyn Sink) -> io::Result<()>,
 ) -> Result<(), OutputError> {
-    let temporary = temporary_name(path);
-    let written = File::create(&temporary).and_then(|file| {
+    let mut temporary = PathBuf::new();
+    temporary_name(path, &mut temporary);
+    finish(path, &temporary, |file| {
         let mut sink = BufWriter::new(file);
         write(&mut sink)?;
-        sink.flush()?;
-        drop(sink);
-        fs::rename(&temporary, path)
-    });
+        sink.flush()
+    })
+}
+
+/// Writes `bytes` as the file at `path`; on an error nothing of it is left. Allocates nothing once `temporary`, whose
+/// content is of no matter, has been used for a path as long.
+///
+/// # Errors
+/// As [`write_whole`].
+pub fn write_bytes(path: &Path, bytes: &[u8], temporary: &mut PathBuf) -> Result<(), OutputError> {
+    temporary_name(path, temporary);
+    finish(path, temporary, |mut file| file.write_all(bytes))
+}
+
+fn finish(
+    path: &Path,
+    temporary: &Path,
+    write: impl FnOnce(File) -> io::Result<()>,
+) -> Result<(), OutputError> {
+    let written = File::create(temporary).and_then(write).and_then(|()| fs::rename(temporary, path));
     written.map_err(|source| {
         // Removing may fail as well; the error worth telling is the first.
-        let _ = fs::remove_file(&temporary);
+        let _ = fs::remove_file(temporary);
         OutputError::Write { path: path.to_owned(), source }
     })
 }
@@ -63,13 +80,20 @@ pub fn remove_leftovers(folder: &Path, is_left: impl Fn(&str, Duration) -> bool)
     Ok(())
 }
 
-fn temporary_name(path: &Path) -> PathBuf {
+/// Makes `temporary` the name of a file beside `path`, in the memory that it has.
+fn temporary_name(path: &Path, temporary: &mut PathBuf) {
     static NUMBER: AtomicU64 = AtomicU64::new(0);
     let number = NUMBER.fetch_add(1, Ordering::Relaxed);
-    let mut name = OsString::from(".");
-    name.push(path.file_name().unwrap_or_default());
-    name.push(format!(".{}-{number}{SUFFIX}", std::process::id()));
-    path.with_file_name(name)
+    let text = temporary.as_mut_os_string();
+    text.clear();
+    if let Some(folder) = path.parent().filter(|folder| !folder.as_os_str().is_empty()) {
+        text.push(folder);
+        text.push(MAIN_SEPARATOR_STR);
+    }
+    text.push(".");
+    text.push(path.file_name().unwrap_or_default());
+    // Text takes whatever is written to it.
+    let _ = write!(text, ".{}-{number}{SUFFIX}", std::process::id());
 }
 
 /// The final name a temporary file is for: `a.npy` for `.a.npy.4711-0.part`.
@@ -132,7 +156,8 @@ mod tests {
 
     #[test]
     fn a_temporary_name_leads_back_to_its_final_name() {
-        let temporary = temporary_name(Path::new("out/bake.json"));
+        let mut temporary = PathBuf::from("what was there before");
+        temporary_name(Path::new("out/bake.json"), &mut temporary);
         assert_eq!(temporary.parent(), Some(Path::new("out")));
         assert_eq!(final_name(temporary.file_name().unwrap().to_str().unwrap()), Some("bake.json"));
     }

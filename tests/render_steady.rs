@@ -1,0 +1,137 @@
+//! The frames of `swell render` allocate nothing, on any thread: not the frame loop, the workers of the sea, or the
+//! thread that compresses and writes pictures.
+#![allow(clippy::unwrap_used, reason = "a test may panic")]
+mod support;
+
+use glam::DVec3;
+use stats_alloc::{INSTRUMENTED_SYSTEM, StatsAlloc};
+use std::alloc::System;
+use std::path::Path;
+use std::thread;
+use std::time::{Duration, Instant};
+use support::program::{on_vulkan, run};
+use support::stage::eye;
+use swell::commands::{Clock, Frames, RenderOptions, render};
+use swell::draw::{Fov, Look};
+use swell::gpu::Validation;
+use swell::host::{Headless, HeadlessSettings};
+use swell::scene::Scene;
+
+#[global_allocator]
+static ALLOCATOR: &StatsAlloc<System> = &INSTRUMENTED_SYSTEM;
+
+/// By then everything has its size: both frames in flight, both buffers of the sea, each thread's own things.
+const WARM: u64 = 100;
+const COUNTED: u64 = 300;
+const SIZE: [u32; 2] = [96, 64];
+
+/// Two cascades, foam with a memory (a tick every third frame), levels of detail, a buoy.
+fn scene() -> Scene {
+    let text = "[sea]\nresolution = 32\nwind_speed = 9\n[sea.foam]\nfade_time = 1.0\n[[sea.cascade]]\npatch_size = 90.0\n\
+                [[sea.cascade]]\npatch_size = 17.0\nrotation_deg = 20.0\n[lod]\nquality = \"low\"\nsize = 512.0\nlevels = 4\n\
+                [[buoy]]\nat = [3.0, -6.0]\n";
+    Scene::parse(text, "steady").unwrap()
+}
+
+/// Everything that any thread has asked of the allocator so far.
+fn asked() -> usize {
+    let stats = ALLOCATOR.stats();
+    stats.allocations + stats.reallocations + stats.deallocations
+}
+
+/// Runs an ignored test of this file in a process of its own: the counters are the process's, and what the harness
+/// keeps of a captured output would be counted too.
+fn alone(name: &str) {
+    // Not `current_exe`, which is the dynamic loader under the runner.
+    let mut child = on_vulkan(std::env::args_os().next().unwrap());
+    let said = run(child.args([name, "--exact", "--ignored", "--nocapture", "--test-threads=1"]));
+    print!("{}", said.out);
+    assert!(said.status == Some(0) && said.out.contains("1 passed"), "{said:?}");
+}
+
+#[test]
+fn a_flight_allocates_nothing() {
+    alone("frames_of_a_flight");
+}
+
+#[test]
+fn the_command_allocates_nothing() {
+    alone("frames_of_the_command");
+}
+
+/// The host alone, with an eye that flies, so that patches come and go.
+#[test]
+#[ignore = "runs in a process of its own"]
+fn frames_of_a_flight() {
+    let settings = HeadlessSettings {
+        size: SIZE,
+        stereo: true,
+        look: Look::Water,
+        device: None,
+        validation: Validation::Off,
+        threads: 2,
+        cache: None,
+    };
+    let mut host = Headless::new(&scene(), &settings, 0.0).unwrap();
+    let (mut patches, mut taken) = ([u32::MAX, 0], 0);
+    let mut before = 0;
+    for frame in 0..WARM + COUNTED {
+        let count = asked();
+        assert!(frame <= WARM || count == before, "frame {}: {} calls", frame - 1, count - before);
+        before = count;
+        let time = frame as f64 / 30.0;
+        let place = DVec3::new(40.0 * time.sin(), 4.0 + 40.0 * (0.7 * time).sin().powi(2), -15.0 * time);
+        let fov = Fov::symmetric(1.2, SIZE[0] as f32 / SIZE[1] as f32);
+        let seen = [-0.03, 0.03].map(|side| eye(place + DVec3::X * side, [time, -0.3, 0.0], fov));
+        host.set_eyes(&seen);
+        host.set_scenery(&[], 0.3);
+        let drawn = host.run([time], |frame| {
+            taken += frame.pixels.len();
+            patches = [patches[0].min(frame.counts.patches), patches[1].max(frame.counts.patches)];
+            Ok(())
+        });
+        drawn.unwrap();
+    }
+    assert!(patches[1] > patches[0] + 10 && taken > 0, "the same patches all along: {patches:?}");
+}
+
+/// The command as it is, with its writer; counted from one written picture to another.
+#[test]
+#[ignore = "runs in a process of its own"]
+fn frames_of_the_command() {
+    let folder = tempfile::tempdir().unwrap();
+    let frames = 0..WARM + COUNTED + 100;
+    let options = RenderOptions {
+        out: folder.path().to_owned(),
+        frames: Frames::new(frames).unwrap(),
+        clock: Clock::new(0.0, 30.0).unwrap(),
+        size: SIZE,
+        stereo: true,
+        look: Look::Water,
+        device: None,
+        validate: false,
+        threads: 2,
+        cache: None,
+    };
+    let [first, last] =
+        [WARM, WARM + COUNTED].map(|frame| folder.path().join(format!("frame_{frame:04}.png")));
+    let counts = thread::scope(|scope| {
+        let command = scope.spawn(|| render(&scene(), &options));
+        let count = |path: &Path| {
+            let patience = Instant::now() + Duration::from_secs(50);
+            while !path.exists() {
+                assert!(
+                    Instant::now() < patience && !command.is_finished(),
+                    "{} is not there",
+                    path.display()
+                );
+                thread::sleep(Duration::from_millis(1));
+            }
+            asked()
+        };
+        let counts = [count(&first), count(&last)];
+        command.join().unwrap().unwrap();
+        counts
+    });
+    assert_eq!(counts[1] - counts[0], 0, "calls of the allocator from one picture to the other");
+}
