@@ -1,21 +1,21 @@
 //! Simulating the next frame while this one is drawn: two buffers and a driver that never leaves the pool.
 use super::{Sea, SeaError, SeaMaps};
-use crate::jobs::Workers;
+use crate::jobs::{Giver, Taker, Workers, handover};
 use std::{
     any::Any,
     panic::{AssertUnwindSafe, catch_unwind},
-    sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError},
     time::{Duration, Instant},
 };
 
 /// A sea stepped one frame ahead of whoever draws it.
 ///
 /// One worker of the pool drives the steps and takes part in them; it sleeps in between. Buffers change hands by move,
-/// so that a frame allocates nothing. The pool is given away for that reason: other work would wait for ever on a pool
-/// of one thread.
+/// so that a frame allocates nothing, and without a lock. The pool is given away for that reason: other work would wait
+/// for ever on a pool of one thread.
 #[derive(Debug)]
 pub struct SeaAhead {
-    shared: Arc<Shared>,
+    asked: Giver<Asked>,
+    finished: Taker<Finished>,
     /// The maps handed out last, free again at the next call.
     front: Option<SeaMaps>,
     /// Maps that no step uses: the second buffer, until the first step begins.
@@ -27,57 +27,19 @@ pub struct SeaAhead {
     workers: Workers,
 }
 
-#[derive(Debug)]
-struct Shared {
-    state: Mutex<State>,
-    changed: Condvar,
-}
-
-#[derive(Debug)]
-enum State {
-    /// Nothing to do.
-    Idle,
-    /// A step to make.
-    Asked(f64, SeaMaps),
-    /// The driver is at it.
-    Busy,
-    /// Done.
-    Finished(Result<Duration, SeaError>, SeaMaps),
-    /// The owner or the driver has gone.
-    Closed,
-}
-
-impl Shared {
-    /// A panic while the lock was held leaves a state that is whole: every change is one assignment.
-    fn lock(&self) -> MutexGuard<'_, State> {
-        self.state.lock().unwrap_or_else(PoisonError::into_inner)
-    }
-
-    fn set(&self, state: State) {
-        *self.lock() = state;
-        self.changed.notify_all();
-    }
-
-    /// Waits until `pick` takes something out of the state.
-    fn wait<R>(&self, pick: impl Fn(&mut State) -> Option<R>) -> R {
-        let mut state = self.lock();
-        loop {
-            if let Some(picked) = pick(&mut state) {
-                return picked;
-            }
-            state = self.changed.wait(state).unwrap_or_else(PoisonError::into_inner);
-        }
-    }
-}
+/// A step to make: its time and what it fills.
+type Asked = (f64, SeaMaps);
+/// What became of it: how long it took, and what it was to fill.
+type Finished = (Result<Duration, SeaError>, SeaMaps);
 
 impl SeaAhead {
     /// Puts `sea` to work on `workers`.
     pub fn new(sea: Sea, workers: Workers) -> Self {
-        let shared = Arc::new(Shared { state: Mutex::new(State::Idle), changed: Condvar::new() });
+        let (asked, to_make) = handover(1);
+        let (made, finished) = handover(1);
         let (front, spare) = (Some(sea.new_maps()), Some(sea.new_maps()));
-        let driver = Arc::clone(&shared);
-        workers.spawn(move || drive(sea, &driver));
-        Self { shared, front, spare, pending: None, took: Duration::ZERO, workers }
+        workers.spawn(move || drive(sea, to_make, made));
+        Self { asked, finished, front, spare, pending: None, took: Duration::ZERO, workers }
     }
 
     /// Begins the step to `time`, unless it is already on its way. One to another time, which somebody began and then
@@ -94,14 +56,10 @@ impl SeaAhead {
             let _dropped = self.next(None);
         }
         let maps = self.spare.take().or_else(|| self.front.take()).ok_or(SeaError::Gone)?;
-        let mut state = self.shared.lock();
-        if matches!(*state, State::Closed) {
+        self.asked.give((time, maps)).map_err(|(_, maps)| {
             self.spare = Some(maps);
-            return Err(SeaError::Gone);
-        }
-        *state = State::Asked(time, maps);
-        drop(state);
-        self.shared.changed.notify_all();
+            SeaError::Gone
+        })?;
         self.pending = Some(time);
         Ok(())
     }
@@ -116,19 +74,9 @@ impl SeaAhead {
         if self.pending.is_none() {
             return Err(SeaError::NotBegun);
         }
-        let finished = self.shared.wait(|state| match std::mem::replace(state, State::Idle) {
-            State::Finished(result, maps) => Some(Ok((result, maps))),
-            State::Closed => {
-                *state = State::Closed;
-                Some(Err(SeaError::Gone))
-            }
-            other => {
-                *state = other;
-                None
-            }
-        });
+        let finished = self.finished.take();
         self.pending = None;
-        let (result, maps) = finished?;
+        let (result, maps) = finished.ok_or(SeaError::Gone)?;
         match result {
             Ok(took) => self.took = took,
             Err(error) => {
@@ -154,40 +102,17 @@ impl SeaAhead {
     }
 }
 
-impl Drop for SeaAhead {
-    fn drop(&mut self) {
-        self.shared.set(State::Closed);
-    }
-}
-
 /// Makes the steps asked for, until the owner has gone.
-fn drive(mut sea: Sea, shared: &Shared) {
-    loop {
-        let asked = shared.wait(|state| match std::mem::replace(state, State::Busy) {
-            State::Asked(time, maps) => Some(Some((time, maps))),
-            State::Closed => {
-                *state = State::Closed;
-                Some(None)
-            }
-            other => {
-                *state = other;
-                None
-            }
-        });
-        let Some((time, mut maps)) = asked else { return };
+fn drive(mut sea: Sea, mut asked: Taker<Asked>, mut finished: Giver<Finished>) {
+    while let Some((time, mut maps)) = asked.take() {
         let began = Instant::now();
         let result = catch_unwind(AssertUnwindSafe(|| sea.step(time, &mut maps))).unwrap_or_else(|panic| {
             sea.forget();
             Err(SeaError::Panicked { time, message: words(&*panic) })
         });
-        let result = result.map(|()| began.elapsed());
-        let mut state = shared.lock();
-        if matches!(*state, State::Closed) {
+        if finished.give((result.map(|()| began.elapsed()), maps)).is_err() {
             return;
         }
-        *state = State::Finished(result, maps);
-        drop(state);
-        shared.changed.notify_all();
     }
 }
 
