@@ -42,6 +42,17 @@ need_tool() {
   fail "'$tool' is missing ($purpose): install it, on Debian or Ubuntu with: apt-get install $*"
 }
 
+# need_header FILE PURPOSE PACKAGE...: the compiler finds a C header, or its packages are installed, or one line says which to install.
+need_header() {
+  local header=$1 purpose=$2
+  shift 2
+  printf '#include <%s>\n' "$header" | cc -E - >/dev/null 2>&1 && return 0
+  if is_root && command -v apt-get >/dev/null && DEBIAN_FRONTEND=noninteractive apt_install "$@"; then
+    return 0
+  fi
+  fail "'$header' is missing ($purpose): install it, on Debian or Ubuntu with: apt-get install $*"
+}
+
 # Rust is the one thing a person has to bring.
 need_rust() {
   local home=~ # known even where HOME is not set

@@ -3,9 +3,12 @@
 use clap::{Args, Parser, Subcommand};
 use std::io::{BufWriter, stdout};
 use std::path::PathBuf;
+use std::time::Duration;
+use swell::commands::bench::{CaseName, IsaChoice};
 use swell::commands::query::{Coordinates, Point};
 use swell::commands::{
-    self, BakeOptions, Clock, CommandError, Frames, RenderOptions, RunOptions, XrOptions, bake::Format,
+    self, BakeOptions, BenchOptions, Clock, CommandError, Frames, RenderOptions, RunOptions, XrOptions,
+    bake::Format,
 };
 use swell::draw::Look;
 use swell::host::Mirror;
@@ -30,6 +33,8 @@ enum Command {
     Bake(Bake),
     /// Tell where the surface is, as one JSON object a point.
     Query(Query),
+    /// Measure what a frame costs on this machine.
+    Bench(Bench),
     /// List Vulkan devices, what they lack, and which would be used.
     Info(Info),
 }
@@ -174,6 +179,29 @@ struct Query {
 }
 
 #[derive(Args)]
+struct Bench {
+    /// Write the report to this file as JSON.
+    #[arg(long, value_name = "F.json")]
+    json: Option<PathBuf>,
+    /// Threads of the runs that have more than one; one a core if not given.
+    #[arg(long, default_value = "0", hide_default_value = true, value_parser = threads)]
+    threads: usize,
+    /// Instruction set of the sea's kernels: avx512, avx2, sse, neon or scalar, or all that this machine has; the best
+    /// if not given.
+    #[arg(long, value_name = "ISA")]
+    isa: Option<IsaChoice>,
+    /// The cases to measure, by name; all if not given.
+    #[arg(long, value_delimiter = ',', value_name = "NAME,..")]
+    only: Vec<CaseName>,
+    /// Points along a side of the grid.
+    #[arg(long, value_delimiter = ',', default_value = "64,128,256,512", value_parser = grid_size, value_name = "N,..")]
+    sizes: Vec<usize>,
+    /// Seconds to measure each case for.
+    #[arg(long, default_value = "0.5", value_parser = measuring_time, value_name = "SECONDS")]
+    time: Duration,
+}
+
+#[derive(Args)]
 struct Info {
     #[command(flatten)]
     scene: SceneFile,
@@ -190,6 +218,7 @@ impl Arguments {
             Command::Render(render) => render.run(),
             Command::Bake(bake) => bake.run(),
             Command::Query(query) => query.run(order),
+            Command::Bench(bench) => commands::bench(&bench.options(), stdout().lock()),
             Command::Info(info) => commands::info(&info.scene.load()?, info.json, stdout().lock()),
         }
     }
@@ -285,6 +314,19 @@ impl Bake {
     }
 }
 
+impl Bench {
+    fn options(self) -> BenchOptions {
+        BenchOptions {
+            json: self.json,
+            threads: self.threads,
+            isa: self.isa.unwrap_or(IsaChoice::Best),
+            only: self.only,
+            sizes: self.sizes,
+            time: self.time,
+        }
+    }
+}
+
 impl Query {
     fn run(self, order: &[String]) -> Result<(), CommandError> {
         let (mut at, mut rest) = (self.at.into_iter(), self.rest.into_iter());
@@ -344,6 +386,16 @@ const MOST_THREADS: usize = 1024;
 fn threads(text: &str) -> Result<usize, String> {
     let number = text.parse().ok().filter(|&number| number <= MOST_THREADS);
     number.ok_or_else(|| format!("wanted a number of threads, 1 to {MOST_THREADS}, or 0 for one a core"))
+}
+
+fn grid_size(text: &str) -> Result<usize, String> {
+    let number = text.trim().parse().ok().filter(|n: &usize| n.is_power_of_two() && (16..=512).contains(n));
+    number.ok_or_else(|| "wanted points along a side, a power of two, 16 to 512".to_owned())
+}
+
+fn measuring_time(text: &str) -> Result<Duration, String> {
+    let number = text.parse().ok().filter(|seconds| (0.001..=60.0).contains(seconds));
+    number.map(Duration::from_secs_f64).ok_or_else(|| "wanted seconds, 0.001 to 60".to_owned())
 }
 
 fn quality(text: &str) -> Result<Quality, String> {

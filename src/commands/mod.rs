@@ -1,6 +1,7 @@
 //! The jobs of the command line, as functions: each takes a scene and plain options.
 
 pub mod bake;
+pub mod bench;
 pub mod frames;
 mod info;
 mod progress;
@@ -10,6 +11,7 @@ mod run;
 mod scene_summary;
 
 pub use bake::{BakeError, BakeOptions, BakeReport, bake};
+pub use bench::{BenchError, BenchOptions, bench};
 pub use frames::{Clock, Frames, FramesError};
 pub use info::info;
 pub use progress::Progress;
@@ -37,6 +39,19 @@ pub enum CommandError {
     /// Baking failed.
     #[error(transparent)]
     Bake(#[from] BakeError),
+    /// Measuring failed.
+    #[error(transparent)]
+    Bench(#[from] BenchError),
+    /// A file that is to be written at the end cannot be.
+    #[error("{option} {}: cannot be written: {source}; choose another place", path.display())]
+    Place {
+        /// The option that names it.
+        option: &'static str,
+        /// The file.
+        path: std::path::PathBuf,
+        /// What the system said.
+        source: std::io::Error,
+    },
     /// A query failed.
     #[error(transparent)]
     Query(#[from] QueryError),
