@@ -37,6 +37,7 @@ pub use hidden_area::HiddenMesh;
 pub use moment::Moment;
 pub use raft::{RAFT_SOLIDS, Raft};
 pub use renderer::Renderer;
+pub use sea_textures::SeaTextures;
 pub use sky_map::SkyMap;
 pub use sky_picture::SkyError;
 pub use solids::{MOST_SOLIDS, Pose, Shape, Solid};

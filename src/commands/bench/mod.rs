@@ -8,6 +8,7 @@ mod isa;
 mod lod;
 mod machine;
 mod paths;
+mod plot;
 mod query;
 mod report;
 mod rivals;
@@ -15,6 +16,7 @@ mod samples;
 mod sea;
 mod selection;
 mod table;
+mod upload;
 
 pub use selection::{CASES, CaseName, IsaChoice};
 
@@ -31,6 +33,8 @@ use std::time::Duration;
 pub struct BenchOptions {
     /// File for the report as JSON.
     pub json: Option<PathBuf>,
+    /// File for the plot of time against N, SVG.
+    pub plot: Option<PathBuf>,
     /// Threads of the runs that have more than one; 0 for one a core.
     pub threads: usize,
     /// Instruction sets.
@@ -41,6 +45,8 @@ pub struct BenchOptions {
     pub sizes: Vec<usize>,
     /// What one case is measured for.
     pub time: Duration,
+    /// Part of the name of the Vulkan device whose upload is recorded.
+    pub device: Option<String>,
 }
 
 /// Errors of measuring.
@@ -55,6 +61,9 @@ pub enum BenchError {
     /// Starting threads.
     #[error(transparent)]
     Jobs(#[from] crate::jobs::JobsError),
+    /// Opening Vulkan or recording an upload.
+    #[error(transparent)]
+    Gpu(#[from] crate::gpu::GpuError),
     /// A rival does not do it.
     #[error("{rival} failed at {n} x {n}: {reason}")]
     Rival {
@@ -79,17 +88,20 @@ pub fn bench(options: &BenchOptions, mut out: impl Write) -> Result<(), CommandE
     write!(out, "{machine}").map_err(CommandError::Answer)?;
     let mut rows = Vec::new();
     let mut pools = Pools::default();
+    let mut progress = Progress::new("measuring", u64::from(ROUNDS) * selection.sizes.len() as u64);
     for &n in &selection.sizes {
         let mut cases = cases(&selection, n)?;
-        let mut progress = Progress::new("measuring", u64::from(ROUNDS));
         measure(&mut cases, &mut pools, options.time, || progress.step())?;
-        progress.finish();
         rows.extend(cases.iter().flat_map(Row::of_case));
     }
+    progress.finish();
     let report = Report::new(machine, rows);
     table::write(&report, &mut out).map_err(CommandError::Answer)?;
     if let Some(path) = &options.json {
         paths::write(path, &report.json())?;
+    }
+    if let Some(path) = &options.plot {
+        paths::write(path, &plot::draw(&report))?;
     }
     Ok(())
 }
@@ -100,6 +112,7 @@ fn cases(selection: &Selection, n: usize) -> Result<Vec<Case>, BenchError> {
     cases.extend(sea::cases(selection, n)?);
     if n == selection.detail {
         cases.extend(query::cases(selection)?);
+        cases.extend(upload::cases(selection)?);
         cases.extend(lod::cases(selection)?);
     }
     Ok(cases)

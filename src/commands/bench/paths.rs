@@ -8,9 +8,14 @@ use std::path::Path;
 /// Makes sure that every file asked for can be written later, and leaves nothing behind.
 ///
 /// # Errors
-/// [`CommandError::Place`] for a place that cannot be written to.
+/// [`CommandError::Usage`] for a plot of a format that is not known, [`CommandError::Place`] for a place that cannot be
+/// written to.
 pub fn check(options: &BenchOptions) -> Result<(), CommandError> {
-    for (option, path) in [("--json", &options.json)] {
+    if let Some(plot) = options.plot.as_deref().filter(|plot| plot.extension().is_none_or(|end| end != "svg"))
+    {
+        return Err(CommandError::Usage(format!("--plot {}: wanted a file ending in .svg", plot.display())));
+    }
+    for (option, path) in [("--json", &options.json), ("--plot", &options.plot)] {
         if let Some(path) = path {
             try_place(path).map_err(|source| CommandError::Place { option, path: path.clone(), source })?;
         }

@@ -117,7 +117,7 @@ pub fn cases(selection: &Selection, n: usize) -> Result<Vec<Case>, BenchError> {
 fn transforms(label: Label, isa: Isa) -> Result<Case, BenchError> {
     let n = label.n;
     let mut fields = ThreeFields::new(n, isa)?;
-    fields.fill(|field, ku, kv| fields::half_spectrum(n, field, ku, kv));
+    fields.fill(|field, ku, kv| fields::half_spectrum(n, field, kv, ku));
     Ok(Case::new(label, transform_work(n), Transforms(fields)))
 }
 

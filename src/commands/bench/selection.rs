@@ -4,7 +4,7 @@ use crate::commands::CommandError;
 use std::str::FromStr;
 
 /// Every case, as `--only` names it. Some give several rows: see `docs/performance.md`.
-pub const CASES: [&str; 12] = [
+pub const CASES: [&str; 13] = [
     "fft3",
     "step",
     "stages",
@@ -14,10 +14,14 @@ pub const CASES: [&str; 12] = [
     "step_foam_tick",
     "quadtree",
     "query",
+    "upload",
     "fftw3",
     "rustfft2",
     "paper_step",
 ];
+
+/// Those that need the feature `rivals`.
+const RIVALS: [&str; 2] = ["fftw3", "rustfft2"];
 
 /// One of [`CASES`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -65,6 +69,8 @@ pub struct Selection {
     pub isas: Vec<Isa>,
     /// Numbers of threads: one, and the other that was asked for.
     pub threads: Vec<usize>,
+    /// Part of the name of a Vulkan device.
+    pub device: Option<String>,
 }
 
 /// The size of the flagship's cascades and of most of the promises.
@@ -74,7 +80,7 @@ impl Selection {
     /// Checks what was asked for.
     ///
     /// # Errors
-    /// [`CommandError::Usage`] for an instruction set that is not there.
+    /// [`CommandError::Usage`] for an instruction set or a rival that is not there.
     pub fn new(options: &BenchOptions) -> Result<Self, CommandError> {
         let isas: Vec<Isa> = match options.isa {
             IsaChoice::Best => vec![Isa::best()],
@@ -87,6 +93,12 @@ impl Selection {
                 "--isa {}: this machine does not have it; it has {}",
                 isa.name(),
                 there.join(", ")
+            )));
+        }
+        let rival = |name: &&CaseName| RIVALS.contains(&name.0);
+        if let Some(CaseName(name)) = options.only.iter().find(rival).filter(|_| !cfg!(feature = "rivals")) {
+            return Err(CommandError::Usage(format!(
+                "--only {name}: this build has no rivals; ./x bench makes one that has"
             )));
         }
         let mut sizes = options.sizes.clone();
@@ -105,6 +117,7 @@ impl Selection {
             sizes,
             isas,
             threads,
+            device: options.device.clone(),
         })
     }
 

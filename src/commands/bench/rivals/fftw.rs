@@ -27,14 +27,13 @@ struct Input {
 }
 
 impl Input {
-    /// `wave(ku, kv)` for every ku and the first `halves` kv.
+    /// Rows of the first `halves` components of `wave(half, whole)`.
     fn new(n: usize, halves: usize, wave: impl Fn(usize, usize) -> [f32; 2]) -> Self {
-        let wave = |ku, kv| {
-            let [re, im] = wave(ku, kv);
+        let wave = |at: usize| {
+            let [re, im] = wave(at % halves, at / halves);
             c32::new(re, im)
         };
-        let wave = &wave;
-        let kept: Vec<c32> = (0..n).flat_map(|ku| (0..halves).map(move |kv| wave(ku, kv))).collect();
+        let kept: Vec<c32> = (0..n * halves).map(wave).collect();
         Self { array: AlignedVec::new(kept.len()), kept }
     }
 
@@ -48,7 +47,7 @@ const FLAGS: Flag = Flag::PATIENT.union(Flag::DESTROYINPUT);
 impl Transform {
     /// a + i b of fields `a` and `b`, or a alone.
     fn complex(n: usize, a: usize, b: Option<usize>) -> Result<Self, Error> {
-        let mut input = Input::new(n, n, |ku, kv| paired(n, a, b, ku, kv));
+        let mut input = Input::new(n, n, |half, whole| paired(n, a, b, half, whole));
         let mut output = AlignedVec::new(n * n);
         let plan = C2CPlan::new(&[n, n], &mut input.array, &mut output, Sign::Backward, FLAGS)?;
         Ok(Self::Complex { plan, input, output })
@@ -56,7 +55,7 @@ impl Transform {
 
     /// One real field from half its spectrum.
     fn real(n: usize, field: usize) -> Result<Self, Error> {
-        let mut input = Input::new(n, n / 2 + 1, |ku, kv| half_spectrum(n, field, ku, kv));
+        let mut input = Input::new(n, n / 2 + 1, |half, whole| half_spectrum(n, field, half, whole));
         let mut output = AlignedVec::new(n * n);
         let plan = C2RPlan::new(&[n, n], &mut input.array, &mut output, FLAGS)?;
         Ok(Self::Real { plan, input, output })
@@ -65,6 +64,17 @@ impl Transform {
     fn refill(&mut self) {
         match self {
             Self::Complex { input, .. } | Self::Real { input, .. } => input.refill(),
+        }
+    }
+
+    /// The real fields that it gave: one or two, row by row.
+    #[cfg(test)]
+    fn fields(&self) -> Vec<Vec<f32>> {
+        match self {
+            Self::Complex { output, .. } => {
+                vec![output.iter().map(|c| c.re).collect(), output.iter().map(|c| c.im).collect()]
+            }
+            Self::Real { output, .. } => vec![output.to_vec()],
         }
     }
 
@@ -113,4 +123,17 @@ pub fn cases(n: usize) -> Result<Vec<Case>, BenchError> {
     let ways = ways(n).map_err(|error| failed(n, &error))?;
     let case = |(name, all)| Case::new(label(name, n), transform_work(n), Way { n, transforms: all });
     Ok(ways.into_iter().map(case).collect())
+}
+
+/// What the ways give for the three fields, by way.
+#[cfg(test)]
+pub fn results(n: usize) -> Vec<Vec<Vec<f32>>> {
+    let ways = ways(n).unwrap().into_iter();
+    ways.map(|(_, transforms)| {
+        let mut way = Way { n, transforms };
+        way.prepare();
+        way.run().unwrap();
+        way.transforms.iter().flat_map(Transform::fields).collect()
+    })
+    .collect()
 }

@@ -33,3 +33,40 @@ pub fn cases(selection: &Selection, n: usize) -> Result<Vec<Case>, BenchError> {
 fn label(name: &str, n: usize) -> Label {
     Label { name: name.to_owned(), n, cascades: 1, threads: 1, isa: "" }
 }
+
+#[cfg(all(test, feature = "rivals"))]
+mod tests {
+    use super::*;
+    use crate::commands::bench::fields::spectrum;
+
+    /// By definition, at the point (x along the half components, y along the whole ones).
+    fn defined(n: usize, field: usize, [x, y]: [usize; 2]) -> f64 {
+        let term = |at: usize| {
+            let (half, whole) = (at % n, at / n);
+            let [re, im] = spectrum(n, field, half, whole).map(f64::from);
+            let (sin, cos) =
+                (std::f64::consts::TAU * ((half * x + whole * y) % n) as f64 / n as f64).sin_cos();
+            re * cos - im * sin
+        };
+        (0..n * n).map(term).sum()
+    }
+
+    #[test]
+    fn everybody_transforms_the_same_fields() {
+        let n = 32;
+        let mut all = fftw::results(n);
+        all.push(rustfft::results(n));
+        for (way, fields) in all.iter().enumerate() {
+            for (field, plane) in fields.iter().take(3).enumerate() {
+                for [x, y] in [[0, 0], [1, 0], [0, 1], [5, 30], [31, 17]] {
+                    let (is, wanted) = (f64::from(plane[y * n + x]), defined(n, field, [x, y]));
+                    assert!(
+                        (is - wanted).abs() < 1e-3,
+                        "way {way}, field {field} at {x}, {y}: {is}, not {wanted}"
+                    );
+                }
+            }
+            assert!(fields.len() >= 3);
+        }
+    }
+}

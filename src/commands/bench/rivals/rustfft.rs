@@ -1,6 +1,6 @@
 //! RustFFT with a transpose: two complex transforms of the grid, the third and fourth real field being one and nothing.
 //!
-//! Rows, transpose, rows: the fields come out transposed, which spares it a second transpose.
+//! Rows, transpose, rows: the fields come out with their axes swapped, which spares it a second transpose.
 use super::label;
 use crate::commands::bench::BenchError;
 use crate::commands::bench::fields::paired;
@@ -40,7 +40,7 @@ fn two(n: usize) -> Two {
     let rows = FftPlanner::new().plan_fft_inverse(n);
     let kept = [(0, Some(1)), (2, None)].map(|(a, b)| {
         let wave = |at: usize| {
-            let [re, im] = paired(n, a, b, at / n, at % n);
+            let [re, im] = paired(n, a, b, at % n, at / n);
             Complex32::new(re, im)
         };
         (0..n * n).map(wave).collect::<Vec<_>>()
@@ -52,4 +52,17 @@ fn two(n: usize) -> Two {
 /// Both transforms.
 pub fn case(n: usize) -> Case {
     Case::new(label("rustfft2", n), transform_work(n), two(n))
+}
+
+/// What it gives for the three fields, row by row.
+#[cfg(test)]
+pub fn results(n: usize) -> Vec<Vec<f32>> {
+    let mut two = two(n);
+    two.prepare();
+    two.run().unwrap();
+    let swapped = |at: usize| at % n * n + at / n;
+    let part = |of: usize, take: fn(&Complex32) -> f32| {
+        (0..n * n).map(|at| take(&two.turned[of][swapped(at)])).collect()
+    };
+    vec![part(0, |c| c.re), part(0, |c| c.im), part(1, |c| c.re)]
 }
