@@ -93,7 +93,7 @@ pub fn cases(selection: &Selection, n: usize) -> Result<Vec<Case>, BenchError> {
                 let name = name.to_owned();
                 Label { name, n, cascades, threads, isa: isa.name() }
             };
-            if selection.wants("fft3") {
+            if threads == 1 && selection.wants("fft3") {
                 cases.push(transforms(label("fft3", 1), isa)?);
             }
             let stages = detail && selection.wants("stages");
