@@ -39,7 +39,8 @@ impl Node {
 
     /// Side in metres, `S / 2^level`, of a node in a root of side `root_size`.
     pub fn size(self, root_size: f64) -> f64 {
-        root_size / f64::from(1_u32 << self.level)
+        // A power of two: the product is the quotient, exactly.
+        root_size * f64::from_bits((1023 - u64::from(self.level)) << 52)
     }
 
     /// Centre (x, z) in metres relative to the root's centre, eq (58).

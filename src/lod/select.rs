@@ -186,15 +186,17 @@ impl View<'_> {
     fn instance(&self, leaf: Node, pattern: Pattern) -> Instance {
         let centre = leaf.centre(self.root_size);
         let coarser = leaf.parent().unwrap_or(leaf);
+        let morph = self.ranges.leaf_morph(leaf);
+        let coarser_morph = if pattern == Pattern::FULL { morph } else { self.ranges.leaf_morph(coarser) };
         let edge_morph = Edge::ALL.map(|edge| {
-            let node = if pattern.has(edge) { coarser } else { leaf };
-            self.ranges.edge_morph(node, edge)
+            let (node, own) = if pattern.has(edge) { (coarser, coarser_morph) } else { (leaf, morph) };
+            self.ranges.edge_morph_beside(node, edge, own)
         });
         Instance {
             centre_x: centre.x as f32,
             centre_z: centre.y as f32,
             size: leaf.size(self.root_size) as f32,
-            morph: self.ranges.leaf_morph(leaf),
+            morph,
             edge_morph,
         }
     }

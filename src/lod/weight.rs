@@ -41,15 +41,23 @@ impl Ranges {
 
     /// q(node)^2: squared distance from the node's centre at rest over (s tau)^2.
     pub fn ratio_squared(&self, node: Node) -> f64 {
+        let [distance, range] = self.squares(node);
+        distance / range
+    }
+
+    /// Squares of the node's distance and of s tau.
+    fn squares(&self, node: Node) -> [f64; 2] {
         let centre = node.centre(self.root_size);
         let away = DVec3::new(centre.x - self.viewer.x, self.viewer.y, centre.y - self.viewer.z);
         let range = node.size(self.root_size) * self.lod_scale;
-        away.length_squared() / (range * range)
+        [away.length_squared(), range * range]
     }
 
     /// Eq (57): the node is too near to be drawn whole.
     pub fn divides(&self, node: Node) -> bool {
-        self.ratio_squared(node) < 1.0
+        // The same as q^2 < 1, rounding included, without the division.
+        let [distance, range] = self.squares(node);
+        distance < range
     }
 
     /// m(node), 0..=1: how far the node's children have slid onto its grid.
@@ -76,10 +84,14 @@ impl Ranges {
     /// The larger of m(P) and m(P') where P' is across the edge from the leaf's parent P, m(P) where the edge is inside
     /// P or nothing is across. Both sides of an edge compute the same number from the same nodes.
     pub fn edge_morph(&self, leaf: Node, edge: Edge) -> f32 {
-        let Some(parent) = leaf.parent() else { return 0.0 };
-        let own = self.morph(parent);
+        self.edge_morph_beside(leaf, edge, self.leaf_morph(leaf))
+    }
+
+    /// [`Self::edge_morph`], given the leaf's own weight, [`Self::leaf_morph`].
+    pub(super) fn edge_morph_beside(&self, leaf: Node, edge: Edge, own: f32) -> f32 {
         match leaf.neighbour(edge).and_then(Node::parent) {
-            Some(across) if across != parent => own.max(self.morph(across)),
+            // m is at most 1.
+            Some(across) if own < 1.0 && Some(across) != leaf.parent() => own.max(self.morph(across)),
             _ => own,
         }
     }
