@@ -74,11 +74,10 @@ impl ThreeFields {
     pub fn fill(&mut self, wave: impl Fn(usize, usize, usize) -> [f32; 2]) {
         for (tile, spectra) in self.spectra.iter_mut().enumerate() {
             for (field, parts) in spectra.chunks_exact_mut(2).enumerate() {
-                for ku in 0..self.fft.len() {
-                    for lane in 0..LANES {
-                        let [re, im] = wave(field, ku, tile * LANES + lane);
-                        parts[0][ku][lane] = re;
-                        parts[1][ku][lane] = im;
+                let (first, second) = parts.split_at_mut(1);
+                for (ku, (re, im)) in first[0].iter_mut().zip(&mut second[0]).enumerate() {
+                    for (lane, (re, im)) in re.iter_mut().zip(im).enumerate() {
+                        [*re, *im] = wave(field, ku, tile * LANES + lane);
                     }
                 }
             }
