@@ -1,4 +1,5 @@
 //! No bytes make the scene reader panic, and whatever it accepts is finite.
+#![allow(clippy::expect_used, reason = "a test may panic")]
 use proptest::prelude::*;
 use proptest::sample::Index;
 use swell::scene::{Scene, SceneError};
@@ -71,8 +72,14 @@ fn check(bytes: &[u8]) {
     }
 }
 
+/// Examples for each test; `SWELL_SCENE_CASES` overrules the number.
+fn cases() -> u32 {
+    std::env::var("SWELL_SCENE_CASES")
+        .map_or(300, |text| text.parse().expect("SWELL_SCENE_CASES is a number"))
+}
+
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 300, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: cases(), failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
     fn random_bytes(bytes in proptest::collection::vec(any::<u8>(), 0..400)) {
