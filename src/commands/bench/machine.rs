@@ -1,6 +1,6 @@
 //! The machine that a report was made on: its name, and the two walls that code runs against.
-use super::isa::Isa;
 use super::samples::Samples;
+use crate::sea::simd::Isa;
 use serde_json::{Value, json};
 use std::fmt;
 use std::hint::black_box;

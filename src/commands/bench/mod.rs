@@ -4,7 +4,6 @@
 //! `docs/performance.md` for what each row means.
 mod fields;
 mod harness;
-mod isa;
 mod lod;
 mod machine;
 mod paths;

@@ -1,8 +1,8 @@
 //! The sea's cases: the transforms alone, whole steps, and the stages of a step.
 use super::harness::{Body, Case, Label, Work};
-use super::isa::{self, Isa, ThreeFields};
 use super::{BenchError, fields, selection::Selection};
 use crate::sea::{CascadeSettings, FoamSettings, Sea, SeaMaps, SeaSettings, split_bands, stages::STAGES};
+use crate::sea::{fft::ThreeFields, simd::Isa};
 use std::time::Duration;
 
 /// Seconds of sea from one call to the next: a headset's frame.
@@ -67,8 +67,8 @@ impl Body for Transforms {
 }
 
 /// Bytes that a step reads and writes at least, for each point: half a spectrum of h0(k), conj(h0(-k)) and a harmonic
-/// (20 bytes a wave); two maps of 8 and 4 bytes with their chains; three planes of floats.
-const STEP_BYTES: f64 = 10.0 + 12.0 * 4.0 / 3.0 + 12.0;
+/// (16 bytes a wave, and 6 that two share); two maps of 8 and 4 bytes with their chains.
+const STEP_BYTES: f64 = 9.5 + 12.0 * 4.0 / 3.0;
 /// The same of three fields' transforms: half spectra in, planes out.
 const TRANSFORM_BYTES: f64 = 24.0;
 
@@ -117,12 +117,13 @@ pub fn cases(selection: &Selection, n: usize) -> Result<Vec<Case>, BenchError> {
 fn transforms(label: Label, isa: Isa) -> Result<Case, BenchError> {
     let n = label.n;
     let mut fields = ThreeFields::new(n, isa)?;
-    fields.fill(|field, ku, kv| fields::half_spectrum(n, field, kv, ku));
+    fields
+        .fill(|field, ku, kv| fields::half_spectrum(n, field, ku as usize, kv.rem_euclid(n as i32) as usize));
     Ok(Case::new(label, transform_work(n), Transforms(fields)))
 }
 
 fn step(label: Label, isa: Isa, foam: FoamSettings, advance: f64) -> Result<Case, BenchError> {
-    let mut sea = isa::sea(&settings(label.n, label.cascades, foam), isa)?;
+    let mut sea = Sea::with_isa(&settings(label.n, label.cascades, foam), isa)?;
     let mut maps = sea.new_maps();
     // Between two ticks of the foam's memory; makes all of it, which no later step has to.
     let time = 0.5 * TICK;

@@ -1,6 +1,7 @@
 //! Which cases, of which sizes, on which instruction sets.
-use super::{BenchOptions, isa::Isa};
+use super::BenchOptions;
 use crate::commands::CommandError;
+use crate::sea::simd::Isa;
 use std::str::FromStr;
 
 /// Every case, as `--only` names it. Some give several rows: see `docs/performance.md`.
