@@ -26,13 +26,20 @@ pub fn cos_sin(turn: u32) -> [f32; 2] {
     let quadrant = turn.wrapping_add(QUARTER / 2) / QUARTER;
     let rest = turn.wrapping_sub(quadrant * QUARTER) as i32;
     let x = f64::from(rest) * (TAU / 4_294_967_296.0);
+    // A quotient is as many instructions as all the rest: 1 / n! is known beforehand.
+    const fn over(n: u32) -> f64 {
+        let (mut product, mut i) = (1.0, 2);
+        while i <= n {
+            product *= i as f64;
+            i += 1;
+        }
+        1.0 / product
+    }
+    const SIN: [f64; 6] = [1.0, -over(3), over(5), -over(7), over(9), -over(11)];
+    const COS: [f64; 7] = [1.0, -over(2), over(4), -over(6), over(8), -over(10), over(12)];
     let x2 = x * x;
-    let sin =
-        x * (1.0 - x2 / 6.0 * (1.0 - x2 / 20.0 * (1.0 - x2 / 42.0 * (1.0 - x2 / 72.0 * (1.0 - x2 / 110.0)))));
-    let cos = 1.0
-        - x2 / 2.0
-            * (1.0
-                - x2 / 12.0 * (1.0 - x2 / 30.0 * (1.0 - x2 / 56.0 * (1.0 - x2 / 90.0 * (1.0 - x2 / 132.0)))));
+    let sin = x * SIN.iter().rev().fold(0.0, |sum, term| sum * x2 + term);
+    let cos = COS.iter().rev().fold(0.0, |sum, term| sum * x2 + term);
     let [cos, sin] = match quadrant {
         0 => [cos, sin],
         1 => [-sin, cos],

@@ -12,6 +12,9 @@ use crate::sea::simd::{Float, Kernel, MAX_LANES, Simd, Strided, StridedMut};
 /// Numbers kept free before and after a row of a [`Window`], for its neighbours around the patch.
 const MARGIN: usize = 16;
 
+/// The largest grid whose half spectra a processor's second cache keeps: to ask for them beforehand only costs.
+const LARGEST_IN_CACHE: usize = 256;
+
 /// Rows of the three planes that are in memory together: the row v is at v modulo `rows`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Window {
@@ -117,12 +120,16 @@ impl<const R1: usize, const R2: usize, const M: usize> Kernel for Rows<'_, R1, R
                 if pass < 2 {
                     let v = v + pass * group + r;
                     let at = layout.transformed_row(v);
-                    pair(simd, layout, from.tiles, [at, layout.tile_len() + at], row);
+                    let ahead = layout.transformed_row((v + 2 * group) % n);
+                    let next = layout.tile_len();
+                    pair(simd, layout, from.tiles, [at, next + at], [ahead, next + ahead], row);
                     to[r] = [window.row(0, v), window.row(1, v)];
                 } else {
                     let v = v + 2 * r;
                     let at = [v, v + 1].map(|v| 2 * layout.tile_len() + layout.transformed_row(v));
-                    pair(simd, layout, from.tiles, at, row);
+                    let ahead = [v, v + 1].map(|v| (v + 2 * group) % n);
+                    let ahead = ahead.map(|v| 2 * layout.tile_len() + layout.transformed_row(v));
+                    pair(simd, layout, from.tiles, at, ahead, row);
                     to[r] = [window.row(2, v), window.row(2, v + 1)];
                 }
                 first::<S, M>(simd, twiddles, row);
@@ -133,9 +140,9 @@ impl<const R1: usize, const R2: usize, const M: usize> Kernel for Rows<'_, R1, R
 }
 
 /// The spectrum of a + i b along ku, from the halves ku >= 0 of the Hermitian a and b, whose rows begin at `at` in
-/// the first tile.
+/// the first tile. Those that come after them begin at `ahead`: no hardware foresees where that is.
 #[inline(always)]
-fn pair<S: Simd>(simd: S, layout: Layout, tiles: &[f32], at: [usize; 2], row: &mut [f32]) {
+fn pair<S: Simd>(simd: S, layout: Layout, tiles: &[f32], at: [usize; 2], ahead: [usize; 2], row: &mut [f32]) {
     let half = layout.n / 2 / S::LANES;
     let vectors = 2 * half;
     let row = &mut row[..2 * layout.n];
@@ -145,6 +152,10 @@ fn pair<S: Simd>(simd: S, layout: Layout, tiles: &[f32], at: [usize; 2], row: &m
         let ku = vector * S::LANES;
         let offset = ku / TILE * FIELDS * layout.tile_len() + ku % TILE;
         let (a, b) = (&tiles[at[0] + offset..], &tiles[at[1] + offset..]);
+        if layout.n > LARGEST_IN_CACHE {
+            simd.prefetch(&tiles[ahead[0] + offset..]);
+            simd.prefetch(&tiles[ahead[1] + offset..]);
+        }
         let (a_re, a_im) = (simd.load(a), simd.load(&a[TILE..]));
         let (b_re, b_im) = (simd.load(b), simd.load(&b[TILE..]));
         let to = &mut row[2 * S::LANES * vector..];

@@ -58,6 +58,11 @@ impl Simd for Avx2 {
     }
 
     #[inline(always)]
+    fn prefetch(self, from: &[f32]) {
+        x86::prefetch(from);
+    }
+
+    #[inline(always)]
     fn pairs(self, table: &[[f32; 2]], indices: &[u16]) -> [F32x8; 2] {
         let (low, high) = (x86::pairs(table, &indices[..4]), x86::pairs(table, &indices[4..LANES]));
         // SAFETY: `self` exists only with AVX2.

@@ -52,6 +52,11 @@ impl Simd for Avx512 {
     }
 
     #[inline(always)]
+    fn prefetch(self, from: &[f32]) {
+        self.0.prefetch(from);
+    }
+
+    #[inline(always)]
     fn pairs(self, table: &[[f32; 2]], indices: &[u16]) -> [F32x8; 2] {
         self.0.pairs(table, indices)
     }

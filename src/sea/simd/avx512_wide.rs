@@ -63,6 +63,11 @@ impl Simd for Avx512Wide {
     }
 
     #[inline(always)]
+    fn prefetch(self, from: &[f32]) {
+        x86::prefetch(from);
+    }
+
+    #[inline(always)]
     fn pairs(self, table: &[[f32; 2]], indices: &[u16]) -> [F32x16; 2] {
         let (first, second) = (x86::pairs(table, &indices[..4]), x86::pairs(table, &indices[4..8]));
         let (third, fourth) = (x86::pairs(table, &indices[8..12]), x86::pairs(table, &indices[12..LANES]));

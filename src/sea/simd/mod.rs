@@ -77,6 +77,9 @@ pub trait Simd: Copy + Send + Sync + 'static {
         unsafe { self.read(from[..Self::LANES].as_ptr()) }
     }
 
+    /// Asks for the cache line of the first of `from`, which will be read soon.
+    fn prefetch(self, from: &[f32]);
+
     /// The pairs of `table` at the first [`Simd::LANES`] of `indices`, as a vector of first and one of second numbers.
     ///
     /// # Panics

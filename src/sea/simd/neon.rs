@@ -54,6 +54,15 @@ impl Simd for Neon {
     }
 
     #[inline(always)]
+    fn prefetch(self, from: &[f32]) {
+        let from = from.as_ptr();
+        // SAFETY: a prefetch of any address at all is allowed, and changes nothing that a program could see.
+        unsafe {
+            asm!("prfm pldl1keep, [{from}]", from = in(reg) from, options(nostack, preserves_flags, readonly));
+        }
+    }
+
+    #[inline(always)]
     fn pairs(self, table: &[[f32; 2]], indices: &[u16]) -> [F32x4; 2] {
         let indices = &indices[..LANES];
         // SAFETY: each pointer is to a pair that is within the table; `self` exists only with NEON.

@@ -37,6 +37,9 @@ impl Simd for Scalar {
     }
 
     #[inline(always)]
+    fn prefetch(self, _: &[f32]) {}
+
+    #[inline(always)]
     fn pairs(self, table: &[[f32; 2]], indices: &[u16]) -> [F32x1; 2] {
         let [first, second] = table[usize::from(indices[0])];
         [F32x1(first), F32x1(second)]

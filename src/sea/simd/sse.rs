@@ -54,6 +54,11 @@ impl Simd for Sse {
     }
 
     #[inline(always)]
+    fn prefetch(self, from: &[f32]) {
+        x86::prefetch(from);
+    }
+
+    #[inline(always)]
     fn pairs(self, table: &[[f32; 2]], indices: &[u16]) -> [F32x4; 2] {
         let [first, second] = x86::pairs(table, &indices[..LANES]);
         [F32x4(first), F32x4(second)]
