@@ -125,7 +125,7 @@ impl<V: Float> Tangents<V> {
 /// Two vectors that go through a chain of dependent operations side by side: one alone would leave the processor waiting.
 pub type Two<V> = [V; 2];
 
-/// 1 / sqrt(x) to 3e-7; a finite number where x is 0.
+/// 1 / sqrt(x) to 6e-7; a finite number where x is 0.
 ///
 /// The seed from the exponent's bits, a first step of Newton's method with Kadlec's constants (2010), which spread its
 /// error to both sides (6.5e-4), and a plain second one, whose error has one sign and is centred.

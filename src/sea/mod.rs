@@ -73,8 +73,12 @@ impl Sea {
         let cascades = settings.cascades.iter().zip(0..).map(|(cascade, index)| {
             Cascade::new(cascade, settings.gravity, settings.repeat_period, settings.normals, index, isa)
         });
+        let cascades = cascades.collect::<Result<_, _>>()?;
+        for cascade in &settings.cascades {
+            scratch::reserve(cascade.resolution, isa);
+        }
         Ok(Self {
-            cascades: cascades.collect::<Result<_, _>>()?,
+            cascades,
             fading: Fading::new(&settings.foam, settings.repeat_period),
             settings: settings.clone(),
             times: Times::default(),

@@ -1,9 +1,12 @@
 //! Working space of one thread, grown once to the largest cascade it has met.
 use super::{
-    band::Working,
-    fft::{layout::Layout, rows::Window},
+    band::{self, Working},
+    fft::{
+        layout::Layout,
+        rows::{self, Window},
+    },
     mips::Pyramid,
-    simd::Aligned,
+    simd::{Aligned, Isa},
 };
 use std::cell::RefCell;
 
@@ -18,6 +21,19 @@ pub struct Scratch {
 
 thread_local! {
     static SCRATCH: RefCell<Scratch> = RefCell::default();
+}
+
+/// Makes the working space for grids up to `n` x `n` on every thread of the pool it is called in: a thread that has its
+/// first job late asks for no memory then.
+pub fn reserve(n: usize, isa: Isa) {
+    rayon::broadcast(|_| {
+        with_scratch(|scratch| {
+            if let Some(layout) = Layout::new(n) {
+                scratch.tile(layout);
+            }
+            scratch.band(band::window(n, isa.lanes()), rows::scratch_len(n, isa.lanes()));
+        });
+    });
 }
 
 /// Lends the calling thread's working space to `work`, which must not ask for it again.

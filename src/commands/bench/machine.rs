@@ -1,5 +1,5 @@
 //! The machine that a report was made on: its name, and the two walls that code runs against.
-use super::samples::Samples;
+use super::{peak, samples::Samples};
 use crate::sea::simd::Isa;
 use serde_json::{Value, json};
 use std::fmt;
@@ -31,14 +31,13 @@ pub struct Machine {
 impl Machine {
     /// Looks and measures; takes about a second.
     pub fn measure(isas: &[Isa]) -> Self {
-        let _ = isas;
         Self {
             processor: processor(),
             cores: std::thread::available_parallelism().map_or(1, std::num::NonZero::get),
             caches: caches(),
             copy: copy(LARGE, 1, 7),
             copy_near: copy(SMALL, 400, 50),
-            peaks: Vec::new(),
+            peaks: isas.iter().map(|&isa| (isa.name(), peak::measure(isa))).collect(),
         }
     }
 

@@ -7,6 +7,7 @@ mod harness;
 mod lod;
 mod machine;
 mod paths;
+mod peak;
 mod plot;
 mod query;
 mod report;

@@ -1,8 +1,9 @@
 //! The sea's cases: the transforms alone, whole steps, and the stages of a step.
 use super::harness::{Body, Case, Label, Work};
 use super::{BenchError, fields, selection::Selection};
+use crate::sea::fft::ThreeFields;
+use crate::sea::simd::Isa;
 use crate::sea::{CascadeSettings, FoamSettings, Sea, SeaMaps, SeaSettings, split_bands, stages::STAGES};
-use crate::sea::{fft::ThreeFields, simd::Isa};
 use std::time::Duration;
 
 /// Seconds of sea from one call to the next: a headset's frame.
@@ -114,12 +115,20 @@ pub fn cases(selection: &Selection, n: usize) -> Result<Vec<Case>, BenchError> {
     Ok(cases)
 }
 
-fn transforms(label: Label, isa: Isa) -> Result<Case, BenchError> {
-    let n = label.n;
+/// The fields that everybody transforms, on `isa`.
+///
+/// # Errors
+/// A size that the sea does not have.
+pub fn filled(n: usize, isa: Isa) -> Result<ThreeFields, BenchError> {
     let mut fields = ThreeFields::new(n, isa)?;
     fields
         .fill(|field, ku, kv| fields::half_spectrum(n, field, ku as usize, kv.rem_euclid(n as i32) as usize));
-    Ok(Case::new(label, transform_work(n), Transforms(fields)))
+    Ok(fields)
+}
+
+fn transforms(label: Label, isa: Isa) -> Result<Case, BenchError> {
+    let n = label.n;
+    Ok(Case::new(label, transform_work(n), Transforms(filled(n, isa)?)))
 }
 
 fn step(label: Label, isa: Isa, foam: FoamSettings, advance: f64) -> Result<Case, BenchError> {

@@ -30,7 +30,7 @@ mod strided;
 mod x86;
 
 pub use aligned::Aligned;
-pub use isa::{Isa, Kernel};
+pub use isa::{Isa, Kernel, NoSuchIsa};
 pub use strided::{Strided, StridedMut};
 
 use half::f16;

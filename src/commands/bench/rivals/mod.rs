@@ -37,7 +37,8 @@ fn label(name: &str, n: usize) -> Label {
 #[cfg(all(test, feature = "rivals"))]
 mod tests {
     use super::*;
-    use crate::commands::bench::fields::spectrum;
+    use crate::commands::bench::{fields::spectrum, sea};
+    use crate::sea::simd::Isa;
 
     /// By definition, at the point (x along the half components, y along the whole ones).
     fn defined(n: usize, field: usize, [x, y]: [usize; 2]) -> f64 {
@@ -51,11 +52,18 @@ mod tests {
         (0..n * n).map(term).sum()
     }
 
+    fn ours(n: usize, isa: Isa) -> Vec<Vec<f32>> {
+        let mut fields = sea::filled(n, isa).unwrap();
+        fields.inverse();
+        (0..3).map(|field| (0..n).flat_map(|v| fields.row(field, v)).copied().collect()).collect()
+    }
+
     #[test]
     fn everybody_transforms_the_same_fields() {
         let n = 32;
         let mut all = fftw::results(n);
         all.push(rustfft::results(n));
+        all.extend(Isa::available().map(|isa| ours(n, isa)));
         for (way, fields) in all.iter().enumerate() {
             for (field, plane) in fields.iter().take(3).enumerate() {
                 for [x, y] in [[0, 0], [1, 0], [0, 1], [5, 30], [31, 17]] {
