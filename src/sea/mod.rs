@@ -1,13 +1,13 @@
 //! The spectral sea: a patch of ocean from wind, as maps of displacement, normals and foam.
 //!
 //! # Stages
-//! [`spectrum`] (once) -> every step [`evolve`] -> [`fft`] -> [`displacement`] -> [`gradient`] -> [`mips`], with
-//! [`foam`] remembering. Each stage is a plain function over slices; [`stages::STAGES`] is their graph; the scalar
-//! truth of every one is in [`reference`] under the same name. See `docs/sea.md`.
+//! [`spectrum`] (once) -> every step [`evolve`] -> [`fft`] -> [`gradient`] -> [`mips`], with [`foam`] remembering. All that
+//! follows the transform along columns is one pass over bands of rows. [`stages::STAGES`] is the graph of jobs; kernels
+//! are written over [`simd`]; the scalar truth of every stage is in [`reference`]. See `docs/sea.md`.
 //!
 //! # Guarantees
 //! [`Sea::step`] is a pure function of the settings and the time: the same bytes on every run, with any number of
-//! threads, from whatever time the sea was stepped before.
+//! threads, from whatever time the sea was stepped before; and on AVX2, AVX-512 and NEON alike.
 pub mod ahead;
 mod band;
 mod cascade;
