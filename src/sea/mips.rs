@@ -240,7 +240,7 @@ pub struct Top<'a, 'm> {
     pub pyramid: Pyramid,
     /// Rows in a band.
     pub band: usize,
-    /// The bands' top rows, [`Top::len`] numbers each, from [`Top::keep`].
+    /// The bands' top rows, [`Top::len`] numbers each, from [`Pyramid::top`].
     pub tops: &'a [f32],
     /// Working space, [`Pyramid::scratch_len`].
     pub kept: &'a mut [f32],

@@ -3,7 +3,7 @@
 //! # Stages
 //! [`spectrum`] (once) -> every step [`evolve`] -> [`fft`] -> [`gradient`] -> [`mips`], with [`foam`] remembering. All that
 //! follows the transform along columns is one pass over bands of rows. [`stages::STAGES`] is the graph of jobs; kernels
-//! are written over [`simd`]; the scalar truth of every stage is in [`reference`]. See `docs/sea.md`.
+//! are written over [`simd`]; the scalar truth of every stage is in [`mod@reference`]. See `docs/sea.md`.
 //!
 //! # Guarantees
 //! [`Sea::step`] is a pure function of the settings and the time: the same bytes on every run, with any number of
