@@ -71,9 +71,13 @@ impl Cascade {
     /// Fills `maps` for `phase`.
     pub fn step(&mut self, phase: Phase, fading: Option<&Fading>, maps: &mut CascadeMaps, times: &Times) {
         let foam = fading.map(|fading| self.remember(phase, fading, times));
+        // A frame on a tick takes that tick in: until it has, the memory is good for nothing.
+        let tick =
+            if foam.is_some_and(|foam| foam.keep) { self.memory.tick.take() } else { self.memory.tick };
         self.transform_columns(phase, times);
         let band = self.band_rows();
         times.measure(stage::BANDS, || self.fill_bands(band, foam, maps));
+        self.memory.tick = tick;
         times.measure(stage::TOP, || self.fill_top(band, maps));
     }
 
@@ -118,7 +122,7 @@ impl Cascade {
         });
     }
 
-    /// Rows in a band: the grid as a whole for one thread, else two bands for each.
+    /// Rows in a band: the grid as a whole for one thread, else two bands for each, at most [`MAX_BANDS`].
     fn band_rows(&self) -> usize {
         let threads = rayon::current_num_threads();
         let bands = if threads == 1 { 1 } else { (2 * threads).next_power_of_two().min(MAX_BANDS) };

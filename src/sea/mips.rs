@@ -60,7 +60,7 @@ impl Pyramid {
         pyramid.slot(mip_levels(n), 0)
     }
 
-    /// Numbers from a channel of a row to the next; rows shorter than two vectors end in zeros.
+    /// Numbers from a channel of a row to the next; rows shorter than two vectors end in what nobody looks at.
     const fn stride(&self, level: usize) -> usize {
         let side = self.n >> level;
         if side < 2 * MAX_LANES { 2 * MAX_LANES } else { side }

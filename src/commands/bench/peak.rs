@@ -1,10 +1,11 @@
-//! How many multiplications and additions an instruction set does at most: the roof over every kernel.
+//! How many multiplications and additions an instruction set does at most, in vectors of the length that the transforms use:
+//! the roof over them.
 use super::samples::Samples;
 use crate::sea::simd::{Float, Isa, Kernel, Simd};
 use std::hint::black_box;
 use std::time::Instant;
 
-/// Chains that do not wait for each other: more than latency times width of any processor that is meant.
+/// Chains that do not wait for each other: latency times width of a core with two multipliers, and half as many again.
 const CHAINS: usize = 12;
 /// Links of a chain in one sample: some ten microseconds.
 const LINKS: usize = 4096;

@@ -69,6 +69,7 @@ impl<T: Source, const R1: usize, const R2: usize> Kernel for Columns<'_, T, R1, 
 
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) {
+        const { assert!(TILE.is_multiple_of(S::LANES), "tiles of whole vectors") };
         let tile = &mut self.tile[..Layout::of(R1, R2).tile_len()];
         let twiddles = &self.twiddles[..2 * R1 * R2];
         for lane in (0..TILE).step_by(S::LANES) {

@@ -10,7 +10,7 @@
 //! Columns are transformed in place: what comes out of row `R2 p + q` of the tile is row `p + R1 q` of the field. Nobody sorts
 //! it; the pass along rows fetches each row from where it is.
 
-/// Values of ku in a tile: a multiple of the lanes of any vector.
+/// Values of ku in a tile: a multiple of the lanes of the vectors that transforms run on, see [`crate::sea::simd::Simd::wide`].
 pub const TILE: usize = 8;
 
 /// Numbers in a row of a tile.

@@ -1,7 +1,7 @@
 //! The pass along rows: from half spectra to three real fields.
 //!
 //! A complex transform carries two real fields: h + i Du of one row, and Dv of two rows. N points are N/16 x 16: the first
-//! transforms run across vectors, sixteen lanes of each block at a time; squares are then transposed, so that the second
+//! transforms run across vectors, sixteen numbers in each block; squares are then transposed, so that the second
 //! ones run across vectors too and their results lie in order.
 use super::{
     butterfly::{Complex, transform},
@@ -106,6 +106,7 @@ impl<const R1: usize, const R2: usize, const M: usize> Kernel for Rows<'_, R1, R
 
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) {
+        const { assert!(TILE.is_multiple_of(S::LANES), "tiles of whole vectors") };
         let Self { from, v, window, planes, scratch } = self;
         let layout = Layout::of(R1, R2);
         let n = R1 * R2;

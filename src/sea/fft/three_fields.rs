@@ -84,11 +84,6 @@ impl ThreeFields {
         &self.planes[self.window.row(field, v)..][..self.layout.n]
     }
 
-    /// The instruction set that it runs on.
-    pub fn isa(&self) -> Isa {
-        self.isa
-    }
-
     /// Fills working space and planes with `value`: nothing of it must be seen again.
     pub fn soil(&mut self, value: f32) {
         self.half.fill(value);

@@ -54,6 +54,9 @@ pub fn search(query: &Query<'_>, target: [f64; 2], taken: u32) -> ([f64; 2], u32
     let reach = 2.0 * norm([dx, dz]);
     let mut guess = Guess::at(query, [x - dx, z - dz], target);
     for start in 1_u32.. {
+        if iterations >= MAX_ITERATIONS {
+            return (best.q, iterations);
+        }
         iterations += 1;
         let steps = if start == 1 { 2 * STEPS } else { STEPS };
         for _ in 0..steps {

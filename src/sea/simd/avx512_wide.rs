@@ -71,15 +71,7 @@ impl Simd for Avx512Wide {
     fn pairs(self, table: &[[f32; 2]], indices: &[u16]) -> [F32x16; 2] {
         let (first, second) = (x86::pairs(table, &indices[..4]), x86::pairs(table, &indices[4..8]));
         let (third, fourth) = (x86::pairs(table, &indices[8..12]), x86::pairs(table, &indices[12..LANES]));
-        let join = |part: usize| {
-            // SAFETY: `self` exists only with AVX-512.
-            unsafe {
-                let low = _mm256_set_m128(second[part], first[part]);
-                let high = _mm256_set_m128(fourth[part], third[part]);
-                F32x16(_mm512_insertf32x8::<1>(_mm512_castps256_ps512(low), high))
-            }
-        };
-        [join(0), join(1)]
+        [join(first[0], second[0], third[0], fourth[0]), join(first[1], second[1], third[1], fourth[1])]
     }
 
     #[inline(always)]
@@ -109,6 +101,16 @@ impl Simd for Avx512Wide {
                 rows[12 + i] = F32x16(_mm512_shuffle_f32x4::<0xdd>(ab_high, cd_high));
             }
         }
+    }
+}
+
+/// Four quarters.
+#[inline(always)]
+fn join(a: __m128, b: __m128, c: __m128, d: __m128) -> F32x16 {
+    // SAFETY: the callers are operations of vectors, which exist only with AVX-512.
+    unsafe {
+        let (low, high) = (_mm256_set_m128(b, a), _mm256_set_m128(d, c));
+        F32x16(_mm512_insertf32x8::<1>(_mm512_castps256_ps512(low), high))
     }
 }
 

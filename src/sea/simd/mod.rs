@@ -74,7 +74,7 @@ pub trait Simd: Copy + Send + Sync + 'static {
     #[inline(always)]
     fn load(self, from: &[f32]) -> Self::F32 {
         // SAFETY: the slice is long enough.
-        unsafe { self.read(from[..Self::LANES].as_ptr()) }
+        unsafe { self.read(from[..<Self::F32 as Float>::LANES].as_ptr()) }
     }
 
     /// Asks for the cache line of the first of `from`, which will be read soon.

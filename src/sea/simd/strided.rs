@@ -36,7 +36,7 @@ impl<'a, S: Simd> Strided<'a, S> {
         count: usize,
         reach: usize,
     ) -> Self {
-        check(from.len(), first, stride, count, S::LANES + reach);
+        check::<S>(from.len(), first, stride, count, reach);
         // SAFETY: `first` is within the slice.
         Self { simd, first: unsafe { from.as_ptr().add(first) }, stride, count, reach, slice: PhantomData }
     }
@@ -95,7 +95,7 @@ impl<'a, S: Simd> StridedMut<'a, S> {
         count: usize,
         reach: usize,
     ) -> Self {
-        check(to.len(), first, stride, count, S::LANES + reach);
+        check::<S>(to.len(), first, stride, count, reach);
         // SAFETY: `first` is within the slice.
         Self { first: unsafe { to.as_mut_ptr().add(first) }, stride, count, reach, slice: PhantomData }
     }
@@ -132,8 +132,14 @@ impl<'a, S: Simd> StridedMut<'a, S> {
     }
 }
 
+/// Every number that may be read or written is within `len`; what overflows is not.
 #[inline(always)]
-fn check(len: usize, first: usize, stride: usize, count: usize, lanes: usize) {
-    let last = count.checked_sub(1).map(|last| first + last * stride + lanes);
-    assert!(last.is_some_and(|last| last <= len), "vectors beyond the end of a slice");
+fn check<S: Simd>(len: usize, first: usize, stride: usize, count: usize, reach: usize) {
+    let end = count
+        .checked_sub(1)
+        .and_then(|last| last.checked_mul(stride))
+        .and_then(|last| last.checked_add(first))
+        .and_then(|last| last.checked_add(reach))
+        .and_then(|last| last.checked_add(<S::F32 as Float>::LANES));
+    assert!(end.is_some_and(|end| end <= len), "vectors beyond the end of a slice");
 }
