@@ -39,8 +39,6 @@ pub struct Shading<'a> {
     pub gradient: GradientParams,
     /// Share of the compression that becomes foam.
     pub breaking: f32,
-    /// The rows kept.
-    pub window: Window,
 }
 
 /// What one job works with.
@@ -85,19 +83,20 @@ impl<const R1: usize, const R2: usize, const M: usize> Kernel for Frame<'_, '_, 
     #[inline(always)]
     fn run<S: Simd>(mut self, simd: S) {
         let range = self.range.clone();
-        let shading = Shading { window: window(R1 * R2, S::LANES), ..self.shading };
+        // Made here, where its numbers are known to the compiler.
+        let (shading, window) = (self.shading, window(R1 * R2, S::LANES));
         let pyramid = Pyramid::new(R1 * R2, &shading.gradient);
         let top = top_level(range.len());
-        let mut steps = Steps::new(range.clone(), R1 * R2, rows::unit(R1 * R2, S::LANES), shading.window);
+        let mut steps = Steps::new(range.clone(), R1 * R2, rows::unit(R1 * R2, S::LANES), window);
         while let Some(step) = steps.next() {
             match step {
-                Step::Transform(v) => transform::<S, R1, R2, M>(simd, &shading, v, &mut self.working),
+                Step::Transform(v) => transform::<S, R1, R2, M>(simd, &shading, window, v, &mut self.working),
                 Step::Shade(v) => {
                     // A pair of the longest vectors may be longer than a row.
                     if R1 * R2 < 2 * <S::Wide as Simd>::LANES {
-                        self.shade(simd, shading.window, pyramid, v);
+                        self.shade(simd, window, pyramid, v);
                     } else {
-                        self.shade(simd.wide(), shading.window, pyramid, v);
+                        self.shade(simd.wide(), window, pyramid, v);
                     }
                     if v & 1 == 1 {
                         let row = (v - range.start) / 2;
@@ -117,10 +116,10 @@ impl<const R1: usize, const R2: usize, const M: usize> Kernel for Frame<'_, '_, 
 fn transform<S: Simd, const R1: usize, const R2: usize, const M: usize>(
     simd: S,
     shading: &Shading<'_>,
+    window: Window,
     v: usize,
     working: &mut Working<'_>,
 ) {
-    let window = shading.window;
     let (planes, scratch) = (&mut *working.planes, &mut *working.rows);
     simd.run(rows::Rows::<R1, R2, M> { from: shading.half, v, window, planes, scratch });
     for row in v..v + rows::unit(R1 * R2, S::LANES) {
@@ -265,13 +264,14 @@ impl<const R1: usize, const R2: usize, const M: usize> Kernel for Tick<'_, R1, R
     fn run<S: Simd>(mut self, simd: S) {
         let n = R1 * R2;
         let window = window(n, S::LANES);
-        self.shading.window = window;
         let foam = FrameFoam { lost: self.decay, keep: true };
         let constants = Constants::new(simd, &self.shading, Some(foam));
         let mut steps = Steps::new(self.range.clone(), n, rows::unit(n, S::LANES), window);
         while let Some(step) = steps.next() {
             match step {
-                Step::Transform(v) => transform::<S, R1, R2, M>(simd, &self.shading, v, &mut self.working),
+                Step::Transform(v) => {
+                    transform::<S, R1, R2, M>(simd, &self.shading, window, v, &mut self.working)
+                }
                 Step::Shade(v) => {
                     let rows = Rows::new(simd, window, self.working.planes, v);
                     let memory = &mut self.memory[(v - self.range.start) * n..][..n];

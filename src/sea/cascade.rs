@@ -7,7 +7,7 @@ use super::{
     evolve,
     fft::{
         layout::{FIELDS, Layout},
-        rows::{self, HalfSpectra},
+        rows::HalfSpectra,
         run_sized,
         twiddles::Twiddles,
     },
@@ -135,7 +135,6 @@ impl Cascade {
             half: HalfSpectra { tiles: &self.half, twiddles: &self.twiddles.rows },
             gradient: self.params,
             breaking: self.breaking,
-            window: band::window(self.layout.n, self.isa.lanes()),
         }
     }
 
@@ -149,7 +148,7 @@ impl Cascade {
         bands.par_iter_mut().with_max_len(1).flatten().for_each(|part| {
             with_scratch(|scratch| {
                 let range: Range<usize> = part.range.clone();
-                let working = scratch.band(shading.window, rows::scratch_len(n, isa.lanes()));
+                let working = scratch.band(n, isa);
                 let planes = part.planes.as_mut().map(|planes| planes.each_mut().map(|plane| &mut **plane));
                 let (maps, memory, top) = (&mut part.maps, &mut *part.memory, &mut *part.top);
                 run_sized!(isa, n, Frame { shading, range, maps, planes, memory, foam, top, working });
@@ -180,7 +179,7 @@ impl Cascade {
         memory.par_chunks_exact_mut(band * n).with_max_len(1).enumerate().for_each(|(index, memory)| {
             with_scratch(|scratch| {
                 let range = index * band..(index + 1) * band;
-                let working = scratch.band(shading.window, rows::scratch_len(n, isa.lanes()));
+                let working = scratch.band(n, isa);
                 run_sized!(isa, n, Tick { shading, range, memory, decay, working });
             });
         });

@@ -1,10 +1,7 @@
 //! Working space of one thread, grown once to the largest cascade it has met.
 use super::{
     band::{self, Working},
-    fft::{
-        layout::Layout,
-        rows::{self, Window},
-    },
+    fft::{layout::Layout, rows},
     mips::Pyramid,
     simd::{Aligned, Isa},
 };
@@ -31,7 +28,7 @@ pub fn reserve(n: usize, isa: Isa) {
             if let Some(layout) = Layout::new(n) {
                 scratch.tile(layout);
             }
-            scratch.band(band::window(n, isa.lanes()), rows::scratch_len(n, isa.lanes()));
+            scratch.band(n, isa);
         });
     });
 }
@@ -55,12 +52,12 @@ impl Scratch {
         grown(&mut self.tile, layout.tile_len())
     }
 
-    /// What a band needs.
-    pub fn band(&mut self, window: Window, rows: usize) -> Working<'_> {
+    /// What a band of a grid of `n` x `n` needs on `isa`.
+    pub fn band(&mut self, n: usize, isa: Isa) -> Working<'_> {
         Working {
-            planes: grown(&mut self.planes, window.numbers()),
-            rows: grown(&mut self.rows, rows),
-            kept: grown(&mut self.kept, Pyramid::scratch_len(window.n)),
+            planes: grown(&mut self.planes, band::window(n, isa.lanes()).numbers()),
+            rows: grown(&mut self.rows, rows::scratch_len(n, isa.lanes())),
+            kept: grown(&mut self.kept, Pyramid::scratch_len(n)),
         }
     }
 

@@ -142,11 +142,7 @@ fn step(label: Label, isa: Isa, foam: FoamSettings, advance: f64) -> Result<Case
     Ok(Case::new(label, work, Step { sea, maps, time, advance }))
 }
 
-/// "stage_" and the first words of each stage's name.
+/// "stage_" and each stage's name.
 fn stage_names() -> Vec<String> {
-    let name = |stage: &str| {
-        let word = |c: char| if c.is_ascii_alphanumeric() { c } else { '_' };
-        format!("stage_{}", stage.replace(", ", "_").chars().map(word).collect::<String>())
-    };
-    STAGES.iter().map(|stage| name(stage.name)).collect()
+    STAGES.iter().map(|stage| format!("stage_{}", stage.name)).collect()
 }
