@@ -4,7 +4,7 @@ mod sea_common;
 use half::f16;
 use sea_common::{cascades, settings};
 use swell::jobs::Workers;
-use swell::sea::gradient::inverse_sqrt;
+use swell::sea::gradient::{INVERSE_SQRTS, inverse_sqrts};
 use swell::sea::simd::{Aligned, Float, Isa, Kernel, MAX_LANES, Simd, Strided, StridedMut};
 use swell::sea::{Sea, SeaMaps, SeaSettings, Spectrum};
 
@@ -95,9 +95,11 @@ impl Kernel for InverseSqrt {
     type Output = f32;
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) -> f32 {
-        let [one, other] = inverse_sqrt(simd, [simd.splat(self.0), simd.splat(4.0)]);
-        assert!((lanes(other)[0] - 0.5).abs() < 2e-7);
-        lanes(one)[0]
+        let mut numbers = [4.0; INVERSE_SQRTS];
+        numbers[0] = self.0;
+        inverse_sqrts(simd, &mut numbers);
+        assert!(numbers[1..].iter().all(|root| (root - 0.5).abs() < 2e-7));
+        numbers[0]
     }
 }
 
@@ -125,12 +127,12 @@ fn texels_are_rounded_as_the_standard_says() {
 }
 
 #[test]
-fn the_inverse_root_is_good_to_6e_7() {
+fn the_inverse_root_is_good_to_a_quarter_of_a_millionth() {
     for isa in Isa::available() {
         for i in 0..4000 {
             let x = 1e-6 * 1.01_f32.powi(i % 3000) * (1.0 + i as f32 * 1e-5);
             let error = f64::from(isa.run(InverseSqrt(x))) * f64::from(x).sqrt() - 1.0;
-            assert!(error.abs() < 6e-7, "{isa}: {x}: {error:e}");
+            assert!(error.abs() < 2.5e-7, "{isa}: {x}: {error:e}");
         }
         assert!(isa.run(InverseSqrt(0.0)).is_finite());
     }
@@ -241,4 +243,4 @@ fn a_headset_and_a_desktop_share_one_sea() {
 }
 
 /// Made on AVX-512; what changes the sea's arithmetic changes it.
-const EXPECTED: [u64; 3] = [10444246901647970686, 10155644059993868718, 15196139746458379368];
+const EXPECTED: [u64; 3] = [10978533496912486910, 5207610665110530085, 4593365475886502888];

@@ -4,10 +4,10 @@ use half::f16;
 use sea_common::{SPECTRA, cascades, maps, planes, settings};
 use swell::sea::fft::layout::{Layout, TILE};
 use swell::sea::gradient::normal_length;
-use swell::sea::mips::{CHANNELS, pack};
+use swell::sea::mips::{Absorb, BandMaps, Pyramid};
 use swell::sea::philox::{gaussian, philox4x32};
 use swell::sea::reference::{displacement::displacement, gradient, mips, spectrum as reference};
-use swell::sea::simd::{Float, Isa, Kernel, MAX_LANES, Simd};
+use swell::sea::simd::{Aligned, Isa, Kernel, Simd};
 use swell::sea::spectrum::{PackedSpectrum, power, signed};
 use swell::sea::{
     CascadeSettings, NormalKind, Spectrum, expected_variance, mip_levels, mip_offset, split_bands,
@@ -176,17 +176,26 @@ impl Kernel for Pack {
     type Output = [u8; 4];
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) -> [u8; 4] {
-        let mut texel = [simd.splat(0.0); CHANNELS];
-        for (channel, value) in self.0.into_iter().enumerate() {
-            texel[channel] = simd.splat(value);
+        const SIDE: usize = 16;
+        let pyramid = Pyramid { n: 2 * SIDE, normal_length: self.1, byte_scale: 127.5 };
+        let mut kept = Aligned::zeros(Pyramid::scratch_len(2 * SIDE));
+        {
+            let (_, mut row) = pyramid.level_1(simd, 0, &mut kept);
+            for (channel, value) in self.0.into_iter().enumerate() {
+                for vector in 0..SIDE.div_ceil(S::LANES) {
+                    row.store(vector, channel, simd.splat(value));
+                }
+            }
         }
-        let mut bytes = [[[0; 4]; MAX_LANES]; 2];
-        let packed = pack(simd, [texel; 2], simd.splat(self.1), simd.splat(127.5));
-        for (half, packed) in packed.into_iter().enumerate() {
-            S::F32::store_bytes(packed, &mut bytes[half]);
-        }
-        assert!(bytes.iter().flat_map(|bytes| &bytes[..S::LANES]).all(|texel| *texel == bytes[0][0]));
-        bytes[0][0]
+        let (mut halves, mut bytes) = ([[f16::ZERO; 4]; SIDE], [[0; 4]; SIDE]);
+        let mut maps = BandMaps {
+            displacement: std::array::from_fn(|_| Default::default()),
+            gradient: std::array::from_fn(|_| Default::default()),
+        };
+        (maps.displacement[1], maps.gradient[1]) = (&mut halves, &mut bytes);
+        simd.run(Absorb { pyramid, level: 1, row: 0, top: 1, kept: &mut kept, maps: &mut maps });
+        assert!(bytes.iter().all(|texel| *texel == bytes[0]));
+        bytes[0]
     }
 }
 

@@ -1,6 +1,9 @@
 //! Mip chains: their layout, eq (55), and their filter, eq (52).
 use super::{
-    gradient::{GradientParams, Two, inverse_sqrt, jacobian_byte, smoothness, square, to_byte},
+    gradient::{
+        GradientParams, INVERSE_SQRTS, inverse_sqrts, jacobian_byte, roughness, smoothness, square, to_byte,
+    },
+    shade,
     simd::{Float, Kernel, MAX_LANES, Simd, Strided, StridedMut},
 };
 use half::f16;
@@ -17,6 +20,12 @@ pub const CHANNELS: usize = 8;
 pub const fn mip_levels(n: usize) -> usize {
     n.ilog2() as usize + 1
 }
+
+/// Texels of the longest row above level 0.
+const LONGEST: usize = 256;
+
+/// Numbers of working space for a row that is packed.
+const EMITTED: usize = 4 * LONGEST;
 
 /// Index of the first texel of `level` in the chain of an `n` x `n` map, eq (55). At `level == mip_levels(n)` it is the
 /// chain's length.
@@ -57,7 +66,12 @@ impl Pyramid {
     /// Numbers of working space for a grid of `n` x `n`.
     pub const fn scratch_len(n: usize) -> usize {
         let pyramid = Self { n, normal_length: 1.0, byte_scale: 1.0 };
-        pyramid.slot(mip_levels(n), 0)
+        pyramid.slots() + if shade::SCRATCH > EMITTED { shade::SCRATCH } else { EMITTED }
+    }
+
+    /// Numbers of all slots.
+    const fn slots(&self) -> usize {
+        self.slot(mip_levels(self.n), 0)
     }
 
     /// Numbers from a channel of a row to the next; rows shorter than two vectors end in what nobody looks at.
@@ -78,18 +92,19 @@ impl Pyramid {
         at + (row & 1) * CHANNELS * self.stride(level)
     }
 
-    /// Level 1's slot for row `row` of level 0 and its neighbour: the even one, which comes first, fills it, the odd one
-    /// adds to it.
+    /// Working space for shading, and level 1's slot for row `row`.
     #[inline(always)]
-    pub fn first_level<'k, S: Simd>(&self, simd: S, row: usize, kept: &'k mut [f32]) -> Halved<'k, S> {
-        let (first, stride) = (self.slot(1, row / 2), self.stride(1));
+    pub fn level_1<'k, S: Simd>(
+        &self,
+        simd: S,
+        row: usize,
+        kept: &'k mut [f32],
+    ) -> (&'k mut [f32], Level1<'k, S>) {
+        let (kept, scratch) = kept.split_at_mut(self.slots());
+        let (first, stride) = (self.slot(1, row), self.stride(1));
         let vectors = (self.n / 2).div_ceil(S::LANES);
-        let reach = (CHANNELS - 1) * stride;
-        Halved {
-            slot: StridedMut::reaching(simd, kept, first, S::LANES, vectors, reach),
-            stride,
-            add: row & 1 == 1,
-        }
+        let slot = StridedMut::reaching(simd, kept, first, S::LANES, vectors, (CHANNELS - 1) * stride);
+        (scratch, Level1 { slot, stride })
     }
 
     /// The two rows of `level` become row `row` of the next.
@@ -114,38 +129,60 @@ impl Pyramid {
         }
     }
 
-    /// Packs row `row` of `level` into the maps.
+    /// Packs row `row` of `level` into the maps, in short passes as [`shade`] does.
     #[inline(always)]
-    fn emit<S: Simd>(&self, simd: S, level: usize, row: usize, kept: &[f32], maps: &mut BandMaps<'_>) {
+    fn emit<S: Simd>(&self, simd: S, level: usize, row: usize, kept: &mut [f32], maps: &mut BandMaps<'_>) {
         let (side, stride) = (self.n >> level, self.stride(level));
         let displacement = &mut maps.displacement[level][row * side..][..side];
         let gradient = &mut maps.gradient[level][row * side..][..side];
-        let vectors = side.div_ceil(2 * S::LANES) * 2;
+        let (kept, scratch) = kept.split_at_mut(self.slots());
+        let vectors = side.div_ceil(S::LANES);
         let reach = (CHANNELS - 1) * stride;
         let from = Strided::reaching(simd, kept, self.slot(level, row), S::LANES, vectors, reach);
-        for pair in 0..vectors / 2 {
-            let mut texels = [[simd.splat(0.0); CHANNELS]; 2];
-            for (half, texel) in texels.iter_mut().enumerate() {
-                for (channel, value) in texel.iter_mut().enumerate() {
-                    *value = from.load_after(2 * pair + half, channel * stride);
-                }
+        let (squares, scratch) = scratch.split_at_mut(LONGEST);
+        let (inverse, scratch) = scratch.split_at_mut(LONGEST);
+        let (rough, scratch) = scratch.split_at_mut(LONGEST);
+        let inverse_root = &mut scratch[..LONGEST];
+        // Rows are shorter than that: what is beyond them does no harm.
+        let whole = (vectors * S::LANES).next_multiple_of(INVERSE_SQRTS);
+        for vector in 0..vectors {
+            let normal =
+                [from.load(vector), from.load_after(vector, stride), from.load_after(vector, 2 * stride)];
+            let square = square(normal);
+            square.store(&mut squares[vector * S::LANES..]);
+            square.store(&mut inverse[vector * S::LANES..]);
+        }
+        inverse_sqrts(simd, &mut inverse[..whole]);
+        let length = simd.splat(self.normal_length);
+        for at in (0..vectors * S::LANES).step_by(S::LANES) {
+            let rough_here = roughness(simd, simd.load(&squares[at..]) * simd.load(&inverse[at..]) * length);
+            rough_here.store(&mut rough[at..]);
+            rough_here.store(&mut inverse_root[at..]);
+        }
+        inverse_sqrts(simd, &mut inverse_root[..whole]);
+        let byte_scale = simd.splat(self.byte_scale);
+        for vector in 0..vectors {
+            let column = vector * S::LANES;
+            let inverse = simd.load(&inverse[column..]);
+            let bytes = [
+                to_byte(simd, from.load(vector) * inverse),
+                to_byte(simd, from.load_after(vector, 2 * stride) * inverse),
+                jacobian_byte(simd, from.load_after(vector, 3 * stride), byte_scale),
+                smoothness(simd, simd.load(&rough[column..]), simd.load(&inverse_root[column..])),
+            ];
+            let mut halves = [simd.splat(0.0); 4];
+            for (channel, half) in halves.iter_mut().enumerate() {
+                *half = from.load_after(vector, (4 + channel) * stride);
             }
-            let bytes = pack(simd, texels, simd.splat(self.normal_length), simd.splat(self.byte_scale));
-            for half in 0..2 {
-                let column = (2 * pair + half) * S::LANES;
-                let [.., du, height, dv, compression] = texels[half];
-                let halves = [du, height, dv, compression];
-                if column + S::LANES <= side {
-                    S::F32::store_halves(halves, &mut displacement[column..]);
-                    S::F32::store_bytes(bytes[half], &mut gradient[column..]);
-                } else if column < side {
-                    let (mut wide_halves, mut wide_bytes) =
-                        ([[f16::ZERO; 4]; MAX_LANES], [[0; 4]; MAX_LANES]);
-                    S::F32::store_halves(halves, &mut wide_halves);
-                    S::F32::store_bytes(bytes[half], &mut wide_bytes);
-                    displacement.copy_from_slice(&wide_halves[..side]);
-                    gradient.copy_from_slice(&wide_bytes[..side]);
-                }
+            if column + S::LANES <= side {
+                S::F32::store_bytes(bytes, &mut gradient[column..]);
+                S::F32::store_halves(halves, &mut displacement[column..]);
+            } else {
+                let (mut wide_halves, mut wide_bytes) = ([[f16::ZERO; 4]; MAX_LANES], [[0; 4]; MAX_LANES]);
+                S::F32::store_bytes(bytes, &mut wide_bytes);
+                S::F32::store_halves(halves, &mut wide_halves);
+                gradient.copy_from_slice(&wide_bytes[..side]);
+                displacement.copy_from_slice(&wide_halves[..side]);
             }
         }
     }
@@ -187,51 +224,17 @@ impl Kernel for Absorb<'_, '_> {
 
 /// A row of level 1 that is being made.
 #[derive(Debug)]
-pub struct Halved<'k, S> {
+pub struct Level1<'k, S> {
     slot: StridedMut<'k, S>,
     stride: usize,
-    add: bool,
 }
 
-impl<S: Simd> Halved<'_, S> {
-    /// A quarter of the sums of neighbours in two vectors of level 0.
+impl<S: Simd> Level1<'_, S> {
+    /// Vector `vector` of `channel`.
     #[inline(always)]
-    pub fn add(&mut self, simd: S, vector: usize, left: [S::F32; CHANNELS], right: [S::F32; CHANNELS]) {
-        let quarter = simd.splat(0.25);
-        if self.add {
-            for channel in 0..CHANNELS {
-                let means = left[channel].pair_sums(right[channel], quarter);
-                let before = self.slot.load_after(simd, vector, channel * self.stride);
-                self.slot.store_after(vector, channel * self.stride, before + means);
-            }
-        } else {
-            for channel in 0..CHANNELS {
-                let means = left[channel].pair_sums(right[channel], quarter);
-                self.slot.store_after(vector, channel * self.stride, means);
-            }
-        }
+    pub fn store(&mut self, vector: usize, channel: usize, value: S::F32) {
+        self.slot.store_after(vector, channel * self.stride, value);
     }
-}
-
-/// (n_u, n_v, J, smoothness) as numbers 0..=255, eqs (50)(51), of two vectors of texels whose unit normals were averaged;
-/// where they agree, the normal is `length` long. Areas times `byte_scale` are 127.5 J.
-#[inline(always)]
-pub fn pack<S: Simd>(
-    simd: S,
-    texels: Two<[S::F32; CHANNELS]>,
-    length: S::F32,
-    byte_scale: S::F32,
-) -> Two<[S::F32; 4]> {
-    let [[x, y, z, area, ..], [x_, y_, z_, area_, ..]] = texels;
-    let squares = [square([x, y, z]), square([x_, y_, z_])];
-    let inverse = inverse_sqrt(simd, squares);
-    let lengths = [squares[0] * inverse[0] * length, squares[1] * inverse[1] * length];
-    let smooth = smoothness(simd, lengths);
-    let jacobians = [jacobian_byte(simd, area, byte_scale), jacobian_byte(simd, area_, byte_scale)];
-    [
-        [to_byte(simd, x * inverse[0]), to_byte(simd, z * inverse[0]), jacobians[0], smooth[0]],
-        [to_byte(simd, x_ * inverse[1]), to_byte(simd, z_ * inverse[1]), jacobians[1], smooth[1]],
-    ]
 }
 
 /// The levels above those that bands make by themselves.

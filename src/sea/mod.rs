@@ -26,6 +26,7 @@ pub mod query;
 pub mod reference;
 mod scratch;
 pub mod settings;
+mod shade;
 pub mod simd;
 pub mod spectrum;
 mod split;

@@ -5,6 +5,7 @@
 use crate::sea::simd::{Float, Simd};
 use std::f64::consts::{FRAC_1_SQRT_2, PI};
 use std::ops::{Add, Sub};
+use std::sync::atomic::{Ordering::SeqCst, compiler_fence};
 
 /// A complex number in each lane.
 #[derive(Clone, Copy, Debug)]
@@ -84,21 +85,54 @@ impl<V: Float> Complex<V> {
     }
 }
 
-/// Transforms the `R` numbers of `x` in place.
+/// Where the numbers of a transform come from and go to. All are read before the first is written, so that both may be
+/// the same place; what is not wanted for long is neither read early nor written late, since registers are few.
+pub trait Points<S: Simd> {
+    /// x_`n`.
+    fn read(&self, n: usize) -> Complex<S::F32>;
+    /// Takes X_`k`.
+    fn write(&mut self, k: usize, value: Complex<S::F32>);
+}
+
+/// Transforms `R` numbers.
 ///
 /// # Panics
 /// Unless `R` is 1, 2, 4, 8, 16 or 32.
 #[inline(always)]
-pub fn transform<S: Simd, const R: usize>(simd: S, x: &mut [Complex<S::F32>; R]) {
+pub fn transform<S: Simd, const R: usize>(simd: S, points: &mut impl Points<S>) {
     match R {
-        1 => {}
-        2 => (x[0], x[1]) = (x[0] + x[1], x[0] - x[1]),
-        4 => [x[0], x[1], x[2], x[3]] = four([x[0], x[1], x[2], x[3]]),
-        8 => eight(simd, x),
-        16 => sixteen(simd, x, 0, 1),
-        32 => thirty_two(simd, x),
+        1 => points.write(0, points.read(0)),
+        2 => {
+            let (a, b) = (points.read(0), points.read(1));
+            points.write(0, a + b);
+            points.write(1, a - b);
+        }
+        4 => write_all(points, 0, 1, four(read_all(points, 0, 1))),
+        8 => eight(simd, points),
+        16 => sixteen(simd, points),
+        32 => thirty_two(simd, points),
         _ => unreachable!("no transform of {R} points"),
     }
+}
+
+#[inline(always)]
+fn read_all<S: Simd>(points: &impl Points<S>, first: usize, stride: usize) -> [Complex<S::F32>; 4] {
+    let at = |n: usize| first + n * stride;
+    [points.read(at(0)), points.read(at(1)), points.read(at(2)), points.read(at(3))]
+}
+
+#[inline(always)]
+fn write_all<S: Simd>(
+    points: &mut impl Points<S>,
+    first: usize,
+    stride: usize,
+    values: [Complex<S::F32>; 4],
+) {
+    let [a, b, c, d] = values;
+    points.write(first, a);
+    points.write(first + stride, b);
+    points.write(first + 2 * stride, c);
+    points.write(first + 3 * stride, d);
 }
 
 #[inline(always)]
@@ -109,21 +143,21 @@ fn four<V: Float>([a, b, c, d]: [Complex<V>; 4]) -> [Complex<V>; 4] {
 }
 
 #[inline(always)]
-fn eight<S: Simd>(simd: S, x: &mut [Complex<S::F32>]) {
-    let even = four([x[0], x[2], x[4], x[6]]);
-    let odd = four([x[1], x[3], x[5], x[7]]);
+fn eight<S: Simd>(simd: S, points: &mut impl Points<S>) {
+    let even = four(read_all(points, 0, 2));
+    let odd = four(read_all(points, 1, 2));
     let (one, half) = (simd.splat(1.0), simd.splat(FRAC_1_SQRT_2 as f32));
+    points.write(0, even[0] + odd[0]);
+    points.write(4, even[0] - odd[0]);
     // e^{i pi/4} = (1 + i) / sqrt 2, e^{3 i pi/4} = -(1 - i) / sqrt 2.
     let first = odd[1].sheared(one);
+    points.write(1, even[1].plus(half, first));
+    points.write(5, even[1].minus(half, first));
+    points.write(2, even[2].plus_i(odd[2]));
+    points.write(6, even[2].minus_i(odd[2]));
     let third = odd[3].sheared(-one);
-    x[0] = even[0] + odd[0];
-    x[4] = even[0] - odd[0];
-    x[1] = even[1].plus(half, first);
-    x[5] = even[1].minus(half, first);
-    x[2] = even[2].plus_i(odd[2]);
-    x[6] = even[2].minus_i(odd[2]);
-    x[3] = even[3].minus(half, third);
-    x[7] = even[3].plus(half, third);
+    points.write(3, even[3].minus(half, third));
+    points.write(7, even[3].plus(half, third));
 }
 
 /// cos and tan of `turns` / 16 of a circle.
@@ -161,16 +195,19 @@ fn four_turned<S: Simd, const K: usize>(simd: S, [a, b, c, d]: [Complex<S::F32>;
     ]
 }
 
-/// Sixteen numbers, `x[first + n stride]`, as 4 x 4.
+/// 4 x 4.
 #[inline(always)]
-fn sixteen<S: Simd>(simd: S, x: &mut [Complex<S::F32>], first: usize, stride: usize) {
-    let at = |n: usize| first + n * stride;
-    let a = four([x[at(0)], x[at(4)], x[at(8)], x[at(12)]]);
-    let b = four([x[at(1)], x[at(5)], x[at(9)], x[at(13)]]);
-    let c = four([x[at(2)], x[at(6)], x[at(10)], x[at(14)]]);
-    let d = four([x[at(3)], x[at(7)], x[at(11)], x[at(15)]]);
-    let zeroth = four([a[0], b[0], c[0], d[0]]);
-    let one = four_turned::<S, 1>(simd, [a[1], b[1], c[1], d[1]]);
+fn sixteen<S: Simd>(simd: S, points: &mut impl Points<S>) {
+    let a = four(read_all(points, 0, 4));
+    compiler_fence(SeqCst);
+    let b = four(read_all(points, 1, 4));
+    compiler_fence(SeqCst);
+    let c = four(read_all(points, 2, 4));
+    compiler_fence(SeqCst);
+    let d = four(read_all(points, 3, 4));
+    compiler_fence(SeqCst);
+    write_all(points, 0, 4, four([a[0], b[0], c[0], d[0]]));
+    write_all(points, 1, 4, four_turned::<S, 1>(simd, [a[1], b[1], c[1], d[1]]));
     // w^2, i, w^6 = i w^2: the two turned ones share their factor.
     let two = {
         let (unit, half) = (simd.splat(1.0), simd.splat(FRAC_1_SQRT_2 as f32));
@@ -184,37 +221,66 @@ fn sixteen<S: Simd>(simd: S, x: &mut [Complex<S::F32>], first: usize, stride: us
             ac_minus.minus_i_times(half, bd_minus),
         ]
     };
-    let three = four_turned::<S, 3>(simd, [a[3], b[3], c[3], d[3]]);
-    for k in 0..4 {
-        x[at(4 * k)] = zeroth[k];
-        x[at(4 * k + 1)] = one[k];
-        x[at(4 * k + 2)] = two[k];
-        x[at(4 * k + 3)] = three[k];
-    }
+    write_all(points, 2, 4, two);
+    write_all(points, 3, 4, four_turned::<S, 3>(simd, [a[3], b[3], c[3], d[3]]));
 }
 
 /// 2 x 16.
 #[inline(always)]
-fn thirty_two<S: Simd>(simd: S, x: &mut [Complex<S::F32>]) {
-    sixteen(simd, x, 0, 2);
-    sixteen(simd, x, 1, 2);
-    let mut low = [x[0]; 16];
-    let mut high = [x[0]; 16];
-    for k in 0..16 {
-        let (even, odd) = (x[2 * k], x[2 * k + 1]);
-        if k == 0 {
-            (low[k], high[k]) = (even + odd, even - odd);
+fn thirty_two<S: Simd>(simd: S, points: &mut impl Points<S>) {
+    let zero = Complex { re: simd.splat(0.0), im: simd.splat(0.0) };
+    let mut even = [zero; 16];
+    sixteen(simd, &mut Even { points: &*points, even: &mut even });
+    sixteen(simd, &mut Odd { simd, points, even: &even });
+}
+
+/// The even ones of 32 points, and where their transform is kept.
+struct Even<'a, P, V> {
+    points: &'a P,
+    even: &'a mut [Complex<V>; 16],
+}
+
+impl<S: Simd, P: Points<S>> Points<S> for Even<'_, P, S::F32> {
+    #[inline(always)]
+    fn read(&self, n: usize) -> Complex<S::F32> {
+        self.points.read(2 * n)
+    }
+
+    #[inline(always)]
+    fn write(&mut self, k: usize, value: Complex<S::F32>) {
+        self.even[k] = value;
+    }
+}
+
+/// The odd ones, whose transform completes that of the even ones.
+struct Odd<'a, S: Simd, P> {
+    simd: S,
+    points: &'a mut P,
+    even: &'a [Complex<S::F32>; 16],
+}
+
+impl<S: Simd, P: Points<S>> Points<S> for Odd<'_, S, P> {
+    #[inline(always)]
+    fn read(&self, n: usize) -> Complex<S::F32> {
+        self.points.read(2 * n + 1)
+    }
+
+    #[inline(always)]
+    fn write(&mut self, k: usize, odd: Complex<S::F32>) {
+        let even = self.even[k];
+        let (low, high) = if k == 0 {
+            (even + odd, even - odd)
         } else if k == 8 {
-            (low[k], high[k]) = (even.plus_i(odd), even.minus_i(odd));
+            (even.plus_i(odd), even.minus_i(odd))
         } else {
             let (cos, tan) = THIRTY_SECONDS[k];
-            let odd = odd.sheared(simd.splat(tan));
-            let cos = simd.splat(cos);
-            (low[k], high[k]) = (even.plus(cos, odd), even.minus(cos, odd));
-        }
+            let odd = odd.sheared(self.simd.splat(tan));
+            let cos = self.simd.splat(cos);
+            (even.plus(cos, odd), even.minus(cos, odd))
+        };
+        self.points.write(k, low);
+        self.points.write(k + 16, high);
     }
-    x[..16].copy_from_slice(&low);
-    x[16..].copy_from_slice(&high);
 }
 
 /// cos and tan of k / 32 of a circle; those of 0 and 8 are not used.

@@ -1,6 +1,6 @@
 //! The pass along columns: two transforms of R1 and R2 points, in place, as many columns at a time as a vector has lanes.
 use super::{
-    butterfly::{Complex, transform},
+    butterfly::{Complex, Points, transform},
     layout::{Layout, ROW, TILE},
 };
 use crate::sea::simd::{Kernel, Simd, Strided, StridedMut};
@@ -93,47 +93,59 @@ fn first<S: Simd, T: Source, const R1: usize, const R2: usize>(
     twiddles: &[f32],
     tile: &mut [f32],
 ) {
-    let rows = source.rows::<S, R1, R2>(simd, q, lane);
-    let mut x = [Complex { re: simd.splat(0.0), im: simd.splat(0.0) }; R1];
-    for (p, x) in x.iter_mut().enumerate() {
-        *x = rows.load(p);
+    let from = source.rows::<S, R1, R2>(simd, q, lane);
+    let to = StridedMut::reaching(simd, tile, q * ROW + lane, Layout::of(R1, R2).group_len(), R1, TILE);
+    transform::<S, R1>(simd, &mut First { simd, from, twiddles: &twiddles[..2 * R1], to });
+}
+
+/// See [`first`].
+struct First<'a, S, F> {
+    simd: S,
+    from: F,
+    twiddles: &'a [f32],
+    to: StridedMut<'a, S>,
+}
+
+impl<S: Simd, F: Rows<S>> Points<S> for First<'_, S, F> {
+    #[inline(always)]
+    fn read(&self, p: usize) -> Complex<S::F32> {
+        self.from.load(p)
     }
-    transform(simd, &mut x);
-    for p in 1..R1 {
-        let (re, im) = (simd.splat(twiddles[2 * p]), simd.splat(twiddles[2 * p + 1]));
-        x[p] = x[p].times(Complex { re, im });
+
+    #[inline(always)]
+    fn write(&mut self, p: usize, mut value: Complex<S::F32>) {
+        if p > 0 {
+            let (re, im) = (self.twiddles[2 * p], self.twiddles[2 * p + 1]);
+            value = value.times(Complex { re: self.simd.splat(re), im: self.simd.splat(im) });
+        }
+        self.to.store(p, value.re);
+        self.to.store_after(p, TILE, value.im);
     }
-    store(simd, &x, tile, q * ROW + lane, Layout::of(R1, R2).group_len());
 }
 
 /// R2 points, over q, in place.
 #[inline(always)]
 fn second<S: Simd, const R1: usize, const R2: usize>(simd: S, p: usize, lane: usize, tile: &mut [f32]) {
     let at = p * Layout::of(R1, R2).group_len() + lane;
-    let mut x = [Complex { re: simd.splat(0.0), im: simd.splat(0.0) }; R2];
-    let rows = StoredRows::new(simd, tile, at, ROW, R2);
-    for (q, x) in x.iter_mut().enumerate() {
-        *x = rows.load(q);
-    }
-    transform(simd, &mut x);
-    store(simd, &x, tile, at, ROW);
+    let rows = StridedMut::reaching(simd, tile, at, ROW, R2, TILE);
+    transform::<S, R2>(simd, &mut Second { simd, rows });
 }
 
-/// Writes `x` to a tile, `stride` apart.
-#[inline(always)]
-fn store<S: Simd, const R: usize>(
+/// See [`second`].
+struct Second<'a, S> {
     simd: S,
-    x: &[Complex<S::F32>; R],
-    tile: &mut [f32],
-    first: usize,
-    stride: usize,
-) {
-    let mut re = StridedMut::new(simd, tile, first, stride, R);
-    for (p, x) in x.iter().enumerate() {
-        re.store(p, x.re);
+    rows: StridedMut<'a, S>,
+}
+
+impl<S: Simd> Points<S> for Second<'_, S> {
+    #[inline(always)]
+    fn read(&self, q: usize) -> Complex<S::F32> {
+        Complex { re: self.rows.load_after(self.simd, q, 0), im: self.rows.load_after(self.simd, q, TILE) }
     }
-    let mut im = StridedMut::new(simd, tile, first + TILE, stride, R);
-    for (p, x) in x.iter().enumerate() {
-        im.store(p, x.im);
+
+    #[inline(always)]
+    fn write(&mut self, q: usize, value: Complex<S::F32>) {
+        self.rows.store(q, value.re);
+        self.rows.store_after(q, TILE, value.im);
     }
 }

@@ -63,7 +63,7 @@ impl Layout {
     /// Numbers in a tile.
     #[inline(always)]
     pub const fn tile_len(&self) -> usize {
-        (self.n + self.r1) * ROW
+        (self.n + self.r1 + 1) * ROW
     }
 
     /// Tiles of a field.

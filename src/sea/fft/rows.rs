@@ -4,16 +4,13 @@
 //! transforms run across vectors, sixteen numbers in each block; squares are then transposed, so that the second
 //! ones run across vectors too and their results lie in order.
 use super::{
-    butterfly::{Complex, transform},
+    butterfly::{Complex, Points, transform},
     layout::{FIELDS, Layout, ROW_RADIX, TILE},
 };
 use crate::sea::simd::{Float, Kernel, MAX_LANES, Simd, Strided, StridedMut};
 
 /// Numbers kept free before and after a row of a [`Window`], for its neighbours around the patch.
 const MARGIN: usize = 16;
-
-/// The largest grid whose half spectra a processor's second cache keeps: to ask for them beforehand only costs.
-const LARGEST_IN_CACHE: usize = 256;
 
 /// Rows of the three planes that are in memory together: the row v is at v modulo `rows`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -112,98 +109,205 @@ impl<const R1: usize, const R2: usize, const M: usize> Kernel for Rows<'_, R1, R
         let n = R1 * R2;
         let group = group(n, S::LANES);
         let scratch = &mut scratch[..2 * n * group];
-        let twiddles = &from.twiddles[..2 * n];
+        let from = HalfSpectra { twiddles: &from.twiddles[..2 * n], ..from };
         // Two groups of h + i Du, then one of Dv.
         for pass in 0..3 {
             let mut to = [[0; 2]; MAX_LANES];
             for r in 0..group {
                 let row = &mut scratch[2 * n * r..2 * n * (r + 1)];
+                let tile_len = layout.tile_len();
                 if pass < 2 {
                     let v = v + pass * group + r;
                     let at = layout.transformed_row(v);
-                    let ahead = layout.transformed_row((v + 2 * group) % n);
-                    let next = layout.tile_len();
-                    pair(simd, layout, from.tiles, [at, next + at], [ahead, next + ahead], row);
+                    first::<S, M>(simd, from, tile_len, [at, tile_len + at], row);
                     to[r] = [window.row(0, v), window.row(1, v)];
                 } else {
                     let v = v + 2 * r;
-                    let at = [v, v + 1].map(|v| 2 * layout.tile_len() + layout.transformed_row(v));
-                    let ahead = [v, v + 1].map(|v| (v + 2 * group) % n);
-                    let ahead = ahead.map(|v| 2 * layout.tile_len() + layout.transformed_row(v));
-                    pair(simd, layout, from.tiles, at, ahead, row);
+                    let at = [v, v + 1].map(|v| 2 * tile_len + layout.transformed_row(v));
+                    first::<S, M>(simd, from, tile_len, at, row);
                     to[r] = [window.row(2, v), window.row(2, v + 1)];
                 }
-                first::<S, M>(simd, twiddles, row);
             }
             second::<S, M>(simd, scratch, to, planes);
         }
     }
 }
 
-/// The spectrum of a + i b along ku, from the halves ku >= 0 of the Hermitian a and b, whose rows begin at `at` in
-/// the first tile. Those that come after them begin at `ahead`: no hardware foresees where that is.
-#[inline(always)]
-fn pair<S: Simd>(simd: S, layout: Layout, tiles: &[f32], at: [usize; 2], ahead: [usize; 2], row: &mut [f32]) {
-    let half = layout.n / 2 / S::LANES;
-    let vectors = 2 * half;
-    let row = &mut row[..2 * layout.n];
-    // Beyond the last ku is the Nyquist number, where the spectra are zero.
-    let mut next = [simd.splat(0.0); 2];
-    for vector in (0..half).rev() {
-        let ku = vector * S::LANES;
-        let offset = ku / TILE * FIELDS * layout.tile_len() + ku % TILE;
-        let (a, b) = (&tiles[at[0] + offset..], &tiles[at[1] + offset..]);
-        if layout.n > LARGEST_IN_CACHE {
-            simd.prefetch(&tiles[ahead[0] + offset..]);
-            simd.prefetch(&tiles[ahead[1] + offset..]);
+/// The spectrum of a + i b along ku from the halves ku >= 0 of the Hermitian a and b, of which every `BLOCK`th vector from
+/// a certain one on is seen: what a first transform reads.
+struct Pair<'a, S: Simd, const M: usize> {
+    simd: S,
+    part: usize,
+    /// a and b at the same ku.
+    ahead: [Strided<'a, S>; 2],
+    /// a and b at the opposite of those of the upper half, which is stored backwards.
+    mirror: [Strided<'a, S>; 2],
+    /// Those one vector further: where lane 0 of the mirror image comes from.
+    next: [Strided<'a, S>; 2],
+    /// The last of those.
+    edge: [Strided<'a, S>; 2],
+}
+
+/// Beyond the last ku is the Nyquist number, where the spectra are zero.
+static NYQUIST: [f32; 2 * TILE] = [0.0; 2 * TILE];
+
+impl<'a, S: Simd, const M: usize> Pair<'a, S, M> {
+    /// Vectors in a block.
+    const PARTS: usize = ROW_RADIX / S::LANES;
+
+    /// The vectors `part`, `part` + [`Self::PARTS`], ..; rows of a and b begin at `at` in the first of `tiles`.
+    #[inline(always)]
+    fn new(simd: S, tiles: &'a [f32], tile_len: usize, at: [usize; 2], part: usize) -> Self {
+        let whole = |at: usize, vector: usize, count: usize| {
+            // A grid of one block has half a block of ku.
+            let vector = if M == 1 { vector % (Self::PARTS / 2) } else { vector };
+            let ku = vector * S::LANES;
+            let first = at + ku / TILE * FIELDS * tile_len + ku % TILE;
+            let stride = ROW_RADIX / TILE * FIELDS * tile_len;
+            Strided::reaching(simd, tiles, first, stride, count, TILE)
+        };
+        let count = (M / 2).max(1);
+        let last = count - 1;
+        let nyquist = part == if M == 1 { Self::PARTS / 2 } else { 0 };
+        let at_edge = Strided::reaching(simd, &NYQUIST, 0, 0, 1, TILE);
+        let (mut next, mut edge) = ([at_edge; 2], [at_edge; 2]);
+        for side in 0..2 {
+            if !nyquist {
+                edge[side] = whole(at[side], last * Self::PARTS + Self::PARTS - part, 1);
+            }
+            if last > 0 {
+                next[side] = whole(at[side], Self::PARTS - part, last);
+            }
         }
-        let (a_re, a_im) = (simd.load(a), simd.load(&a[TILE..]));
-        let (b_re, b_im) = (simd.load(b), simd.load(&b[TILE..]));
-        let to = &mut row[2 * S::LANES * vector..];
-        (a_re - b_im).store(to);
-        (a_im + b_re).store(&mut to[S::LANES..]);
-        // conj a + i conj b, at -ku.
-        let mirror = [a_re + b_im, b_re - a_im];
-        let to = &mut row[2 * S::LANES * (vectors - 1 - vector)..];
-        mirror[0].mirrored(next[0]).store(to);
-        mirror[1].mirrored(next[1]).store(&mut to[S::LANES..]);
-        next = mirror;
+        Self {
+            simd,
+            part,
+            ahead: [whole(at[0], part, count), whole(at[1], part, count)],
+            mirror: [
+                whole(at[0], Self::PARTS - 1 - part, count),
+                whole(at[1], Self::PARTS - 1 - part, count),
+            ],
+            next,
+            edge,
+        }
+    }
+
+    /// Vector `j` of those that are seen.
+    #[inline(always)]
+    fn read(&self, j: usize) -> Complex<S::F32> {
+        let ahead = if M == 1 { self.part < Self::PARTS / 2 } else { j < M / 2 };
+        if ahead {
+            let [a, b] = self.ahead;
+            return Complex { re: a.load(j) - b.load_after(j, TILE), im: a.load_after(j, TILE) + b.load(j) };
+        }
+        let back = M - 1 - j;
+        let here = conjugate(self.mirror, back);
+        let next =
+            if back == (M / 2).max(1) - 1 { conjugate(self.edge, 0) } else { conjugate(self.next, back) };
+        Complex { re: here.re.mirrored(next.re), im: here.im.mirrored(next.im) }
     }
 }
 
-/// M points across blocks of sixteen, and the factors between the two transforms, in place.
+/// conj a + i conj b.
 #[inline(always)]
-fn first<S: Simd, const M: usize>(simd: S, twiddles: &[f32], row: &mut [f32]) {
+fn conjugate<S: Simd>([a, b]: [Strided<'_, S>; 2], index: usize) -> Complex<S::F32> {
+    Complex { re: a.load(index) + b.load_after(index, TILE), im: b.load(index) - a.load_after(index, TILE) }
+}
+
+/// M points across blocks of sixteen, and the factors between the two transforms.
+struct First<'a, S: Simd, const M: usize> {
+    from: Pair<'a, S, M>,
+    /// Real parts, and after sixteen imaginary ones.
+    twiddles: Strided<'a, S>,
+    to: StridedMut<'a, S>,
+}
+
+impl<S: Simd, const M: usize> Points<S> for First<'_, S, M> {
+    #[inline(always)]
+    fn read(&self, j: usize) -> Complex<S::F32> {
+        self.from.read(j)
+    }
+
+    #[inline(always)]
+    fn write(&mut self, k: usize, mut value: Complex<S::F32>) {
+        if k > 0 {
+            let (re, im) = (self.twiddles.load(k), self.twiddles.load_after(k, ROW_RADIX));
+            value = value.times(Complex { re, im });
+        }
+        self.to.store(k, value.re);
+        self.to.store_after(k, S::LANES, value.im);
+    }
+}
+
+/// The first transforms of the row whose fields a and b begin at `at`
+#[inline(always)]
+fn first<S: Simd, const M: usize>(
+    simd: S,
+    from: HalfSpectra<'_>,
+    tile_len: usize,
+    at: [usize; 2],
+    row: &mut [f32],
+) {
     const BLOCK: usize = 2 * ROW_RADIX;
-    let row = &mut row[..BLOCK * M];
     for part in 0..ROW_RADIX / S::LANES {
-        let mut x = [Complex { re: simd.splat(0.0), im: simd.splat(0.0) }; M];
-        let at = 2 * S::LANES * part;
-        let re = Strided::new(simd, row, at, BLOCK, M);
-        let im = Strided::new(simd, row, at + S::LANES, BLOCK, M);
-        for (j, x) in x.iter_mut().enumerate() {
-            *x = Complex { re: re.load(j), im: im.load(j) };
-        }
-        transform(simd, &mut x);
-        let factor = part * S::LANES;
-        let re = Strided::new(simd, twiddles, factor, BLOCK, M);
-        let im = Strided::new(simd, twiddles, factor + ROW_RADIX, BLOCK, M);
-        for (k, x) in x.iter_mut().enumerate().skip(1) {
-            *x = x.times(Complex { re: re.load(k), im: im.load(k) });
-        }
-        let mut re = StridedMut::new(simd, row, at, BLOCK, M);
-        for (k, x) in x.iter().enumerate() {
-            re.store(k, x.re);
-        }
-        let mut im = StridedMut::new(simd, row, at + S::LANES, BLOCK, M);
-        for (k, x) in x.iter().enumerate() {
-            im.store(k, x.im);
+        let mut points = First {
+            from: Pair::<S, M>::new(simd, from.tiles, tile_len, at, part),
+            twiddles: Strided::reaching(simd, from.twiddles, part * S::LANES, BLOCK, M, ROW_RADIX),
+            to: StridedMut::reaching(simd, row, 2 * S::LANES * part, BLOCK, M, S::LANES),
+        };
+        transform::<S, M>(simd, &mut points);
+    }
+}
+
+/// Sixteen points within each block, for as many blocks at a time as a vector has lanes, all of one row.
+struct Second<'a, S: Simd> {
+    x: [Complex<S::F32>; ROW_RADIX],
+    to: StridedMut<'a, S>,
+    /// From the real part's row to the imaginary part's.
+    im: usize,
+}
+
+impl<S: Simd> Points<S> for Second<'_, S> {
+    #[inline(always)]
+    fn read(&self, n: usize) -> Complex<S::F32> {
+        self.x[n]
+    }
+
+    #[inline(always)]
+    fn write(&mut self, k: usize, value: Complex<S::F32>) {
+        self.to.store(k, value.re);
+        self.to.store_after(k, self.im, value.im);
+    }
+}
+
+/// The same where blocks are so few that a vector holds several rows.
+struct SecondOfRows<'a, S: Simd, const M: usize> {
+    x: [Complex<S::F32>; ROW_RADIX],
+    /// Where each row's real and imaginary part begin.
+    to: [[usize; 2]; MAX_LANES],
+    planes: &'a mut [f32],
+}
+
+impl<S: Simd, const M: usize> Points<S> for SecondOfRows<'_, S, M> {
+    #[inline(always)]
+    fn read(&self, n: usize) -> Complex<S::F32> {
+        self.x[n]
+    }
+
+    #[inline(always)]
+    fn write(&mut self, k: usize, value: Complex<S::F32>) {
+        let (mut re, mut im) = ([0.0; MAX_LANES], [0.0; MAX_LANES]);
+        value.re.store(&mut re);
+        value.im.store(&mut im);
+        for r in 0..S::LANES / M {
+            let [to_re, to_im] = self.to[r].map(|to| to + M * k);
+            self.planes[to_re..to_re + M].copy_from_slice(&re[M * r..M * (r + 1)]);
+            self.planes[to_im..to_im + M].copy_from_slice(&im[M * r..M * (r + 1)]);
         }
     }
 }
 
-/// Sixteen points within each block, for as many blocks at a time as a vector has lanes; `to` says where each
-/// row's real and imaginary part begin in `planes`.
+/// The second transforms; `to` says where each row's real and imaginary part begin in `planes`.
 #[inline(always)]
 fn second<S: Simd, const M: usize>(
     simd: S,
@@ -222,27 +326,13 @@ fn second<S: Simd, const M: usize>(
                 x[part * S::LANES + lane] = Complex { re: re[lane], im: im[lane] };
             }
         }
-        transform(simd, &mut x);
         if M >= S::LANES {
-            let mut re = StridedMut::new(simd, planes, to[0][0] + first_block, M, ROW_RADIX);
-            for (k, x) in x.iter().enumerate() {
-                re.store(k, x.re);
-            }
-            let mut im = StridedMut::new(simd, planes, to[0][1] + first_block, M, ROW_RADIX);
-            for (k, x) in x.iter().enumerate() {
-                im.store(k, x.im);
-            }
+            let [re, im] = to[0];
+            let im = im - re;
+            let to = StridedMut::reaching(simd, planes, re + first_block, M, ROW_RADIX, im);
+            transform::<S, ROW_RADIX>(simd, &mut Second { x, to, im });
         } else {
-            for (k, x) in x.iter().enumerate() {
-                let (mut re, mut im) = ([0.0; MAX_LANES], [0.0; MAX_LANES]);
-                x.re.store(&mut re);
-                x.im.store(&mut im);
-                for r in 0..S::LANES / M {
-                    let (to_re, to_im) = (to[r][0] + M * k, to[r][1] + M * k);
-                    planes[to_re..to_re + M].copy_from_slice(&re[M * r..M * (r + 1)]);
-                    planes[to_im..to_im + M].copy_from_slice(&im[M * r..M * (r + 1)]);
-                }
-            }
+            transform::<S, ROW_RADIX>(simd, &mut SecondOfRows::<S, M> { x, to, planes });
         }
     }
 }

@@ -36,8 +36,8 @@ pub use strided::{Strided, StridedMut};
 use half::f16;
 use std::ops::{Add, Mul, Neg, Sub};
 
-/// What [`Float::inverse_sqrt_seed`] takes half the bits from (Blinn 1997; this constant: Kadlec 2010).
-const SEED: u32 = 0x5f1f_fff9;
+/// What [`Float::inverse_sqrt_seed`] takes half the bits from (Blinn 1997), such that it is as much too large as too small.
+const SEED: u32 = 0x5f37_4700;
 
 /// Most lanes that a vector has.
 pub const MAX_LANES: usize = 16;
@@ -77,8 +77,8 @@ pub trait Simd: Copy + Send + Sync + 'static {
         unsafe { self.read(from[..<Self::F32 as Float>::LANES].as_ptr()) }
     }
 
-    /// Asks for the cache line of the first of `from`, which will be read soon.
-    fn prefetch(self, from: &[f32]);
+    /// Asks for the cache line of `from`, which will be read soon.
+    fn prefetch(self, from: &f32);
 
     /// The pairs of `table` at the first [`Simd::LANES`] of `indices`, as a vector of first and one of second numbers.
     ///
@@ -107,8 +107,7 @@ pub trait Float:
     fn min(self, other: Self) -> Self;
     /// Without its sign.
     fn abs(self) -> Self;
-    /// About 1 / sqrt(self), from the exponent's bits: what `gradient::inverse_sqrt` begins with; some number where `self`
-    /// is 0.
+    /// 1 / sqrt(self) to 3.5 %, from the exponent's bits; some number where `self` is 0.
     fn inverse_sqrt_seed(self) -> Self;
 
     /// Lanes of the vector.

@@ -54,7 +54,7 @@ impl Simd for Neon {
     }
 
     #[inline(always)]
-    fn prefetch(self, from: &[f32]) {
+    fn prefetch(self, from: &f32) {
         let from = from.as_ptr();
         // SAFETY: a prefetch of any address at all is allowed, and changes nothing that a program could see.
         unsafe {

@@ -62,6 +62,19 @@ impl<'a, S: Simd> Strided<'a, S> {
     }
 }
 
+impl<S: Simd> Strided<'_, S> {
+    /// Asks for the cache line where vector `index` begins, which will be read soon.
+    ///
+    /// # Panics
+    /// As [`Strided::load`].
+    #[inline(always)]
+    pub fn prefetch(self, index: usize) {
+        assert!(index < self.count);
+        // SAFETY: the vector was checked to be within the slice, so its first number is.
+        self.simd.prefetch(unsafe { &*self.first.add(index * self.stride) });
+    }
+}
+
 /// Some vectors to write.
 #[derive(Debug)]
 pub struct StridedMut<'a, S> {
