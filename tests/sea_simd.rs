@@ -4,7 +4,7 @@ mod sea_common;
 use half::f16;
 use sea_common::{cascades, settings};
 use swell::jobs::Workers;
-use swell::sea::gradient::{INVERSE_SQRTS, inverse_sqrts};
+use swell::sea::gradient::{ABREAST, inverse_sqrts};
 use swell::sea::simd::{Aligned, Float, Isa, Kernel, MAX_LANES, Simd, Strided, StridedMut};
 use swell::sea::{Sea, SeaMaps, SeaSettings, Spectrum};
 
@@ -95,7 +95,7 @@ impl Kernel for InverseSqrt {
     type Output = f32;
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) -> f32 {
-        let mut numbers = [4.0; INVERSE_SQRTS];
+        let mut numbers = [4.0; ABREAST * MAX_LANES];
         numbers[0] = self.0;
         inverse_sqrts(simd, &mut numbers);
         assert!(numbers[1..].iter().all(|root| (root - 0.5).abs() < 2e-7));

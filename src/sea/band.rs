@@ -106,8 +106,7 @@ impl<const R1: usize, const R2: usize, const M: usize> Kernel for Frame<'_, '_, 
                 }
             }
         }
-        let row = pyramid.top(top, self.working.kept);
-        self.top[..row.len()].copy_from_slice(row);
+        pyramid.copy_top(top, self.working.kept, self.top);
     }
 }
 

@@ -2,7 +2,7 @@
 use super::{
     fft::{layout::FIELDS, rows::Window},
     settings::{CascadeSettings, NormalKind},
-    simd::{Float, MAX_LANES, Simd, Strided},
+    simd::{Float, Simd, Strided},
 };
 
 /// What the gradients of a cascade depend on besides its displacement.
@@ -127,12 +127,9 @@ pub fn upward<V: Float, const SHEET: bool>(area: V, width: V) -> V {
 
 /// Vectors that go through the long chain of dependent operations of [`inverse_sqrts`] side by side: one alone would leave
 /// the processor waiting.
-const ABREAST: usize = 4;
+pub const ABREAST: usize = 4;
 
-/// The least numbers that [`inverse_sqrts`] takes, and of which it takes a multiple.
-pub const INVERSE_SQRTS: usize = ABREAST * MAX_LANES;
-
-/// Turns every x of `numbers` into 1 / sqrt(x), to 2.5e-7; into a finite number where x is 0.
+/// Turns every x of `numbers`, of which there are a multiple of [`ABREAST`] vectors, into 1 / sqrt(x), to 2.5e-7; into a finite number where x is 0.
 ///
 /// The seed y from the exponent's bits leaves e = 1 - x y^2 within 0.0682 of 0; the rest is 1 / sqrt(1 - e), whose first two
 /// coefficients are Taylor's, the others of least relative error (Remez): 3e-8.

@@ -1,10 +1,9 @@
 //! Mip chains: their layout, eq (55), and their filter, eq (52).
 use super::{
-    gradient::{
-        GradientParams, INVERSE_SQRTS, inverse_sqrts, jacobian_byte, roughness, smoothness, square, to_byte,
-    },
+    gradient::GradientParams,
+    pack::{self, pack},
     shade,
-    simd::{Float, Kernel, MAX_LANES, Simd, Strided, StridedMut},
+    simd::{Channels, ChannelsMut, Float, Kernel, MAX_LANES, Simd},
 };
 use half::f16;
 
@@ -21,18 +20,15 @@ pub const fn mip_levels(n: usize) -> usize {
     n.ilog2() as usize + 1
 }
 
-/// Texels of the longest row above level 0.
-const LONGEST: usize = 256;
-
-/// Numbers of working space for a row that is packed.
-const EMITTED: usize = 4 * LONGEST;
-
 /// Index of the first texel of `level` in the chain of an `n` x `n` map, eq (55). At `level == mip_levels(n)` it is the
 /// chain's length.
 pub const fn mip_offset(n: usize, level: usize) -> usize {
     let remaining = (1_usize << (2 * (mip_levels(n) - level))) - 1;
     (4 * n * n - 1) / 3 - remaining / 3
 }
+
+/// A row of level 1 that is being made.
+pub type Level1<'k, S> = ChannelsMut<'k, S, CHANNELS>;
 
 /// A band of both maps: all rows of every level that come from some rows of level 0.
 pub struct BandMaps<'a> {
@@ -66,30 +62,32 @@ impl Pyramid {
     /// Numbers of working space for a grid of `n` x `n`.
     pub const fn scratch_len(n: usize) -> usize {
         let pyramid = Self { n, normal_length: 1.0, byte_scale: 1.0 };
-        pyramid.slots() + if shade::SCRATCH > EMITTED { shade::SCRATCH } else { EMITTED }
+        pyramid.slots() + if shade::SCRATCH > pack::SCRATCH { shade::SCRATCH } else { pack::SCRATCH }
     }
 
     /// Numbers of all slots.
-    const fn slots(&self) -> usize {
+    pub(super) const fn slots(&self) -> usize {
         self.slot(mip_levels(self.n), 0)
     }
 
-    /// Numbers from a channel of a row to the next; rows shorter than two vectors end in what nobody looks at.
-    const fn stride(&self, level: usize) -> usize {
+    /// Numbers from a channel to the next: two rows, and as much as a vector that begins in the second may reach beyond it.
+    pub(super) const fn stride(&self, level: usize) -> usize {
         let side = self.n >> level;
-        if side < 2 * MAX_LANES { 2 * MAX_LANES } else { side }
+        if side < MAX_LANES { 2 * MAX_LANES } else { 2 * side }
     }
 
-    /// Where row 0 or 1 of `level`, 1 or more, is kept.
+    /// Where channel 0 of row 0 or 1 of `level`, 1 or more, is kept. Row 1 of a channel follows its row 0: to whoever packs
+    /// them they are one.
     #[inline(always)]
-    pub const fn slot(&self, level: usize, row: usize) -> usize {
+    pub(super) const fn slot(&self, level: usize, row: usize) -> usize {
         let mut at = 0;
         let mut below = 1;
         while below < level {
-            at += 2 * CHANNELS * self.stride(below);
+            // Two vectors are read of rows that are shorter than one.
+            at += CHANNELS * self.stride(below) + 2 * MAX_LANES;
             below += 1;
         }
-        at + (row & 1) * CHANNELS * self.stride(level)
+        at + (row & 1) * (self.n >> level)
     }
 
     /// Working space for shading, and level 1's slot for row `row`.
@@ -103,92 +101,32 @@ impl Pyramid {
         let (kept, scratch) = kept.split_at_mut(self.slots());
         let (first, stride) = (self.slot(1, row), self.stride(1));
         let vectors = (self.n / 2).div_ceil(S::LANES);
-        let slot = StridedMut::reaching(simd, kept, first, S::LANES, vectors, (CHANNELS - 1) * stride);
-        (scratch, Level1 { slot, stride })
+        (scratch, ChannelsMut::new(simd, kept, first, stride, vectors))
     }
 
     /// The two rows of `level` become row `row` of the next.
     #[inline(always)]
-    pub fn halve<S: Simd>(&self, simd: S, level: usize, row: usize, kept: &mut [f32]) {
-        let (stride, next_stride) = (self.stride(level), self.stride(level + 1));
+    fn halve<S: Simd>(&self, simd: S, level: usize, row: usize, kept: &mut [f32]) {
+        let (side, stride, next_stride) = (self.n >> level, self.stride(level), self.stride(level + 1));
+        let vectors = (side / 2).div_ceil(S::LANES);
         let (from, to) = kept.split_at_mut(self.slot(level + 1, 0));
-        let to = &mut to[(row & 1) * CHANNELS * next_stride..];
-        let vectors = (self.n >> (level + 1)).div_ceil(S::LANES);
+        let upper = Channels::<S, CHANNELS>::new(simd, from, self.slot(level, 0), stride, 2 * vectors);
+        let lower = Channels::<S, CHANNELS>::new(simd, from, self.slot(level, 1), stride, 2 * vectors);
+        let first = (row & 1) * (side / 2);
+        let mut to = ChannelsMut::<S, CHANNELS>::new(simd, to, first, next_stride, vectors);
         let quarter = simd.splat(0.25);
-        for channel in 0..CHANNELS {
-            let upper = self.slot(level, 0) + channel * stride;
-            let lower = self.slot(level, 1) + channel * stride;
-            let upper = Strided::new(simd, from, upper, S::LANES, 2 * vectors);
-            let lower = Strided::new(simd, from, lower, S::LANES, 2 * vectors);
-            let mut to = StridedMut::new(simd, to, channel * next_stride, S::LANES, vectors);
-            for vector in 0..vectors {
-                let left = upper.load(2 * vector) + lower.load(2 * vector);
-                let right = upper.load(2 * vector + 1) + lower.load(2 * vector + 1);
-                to.store(vector, left.pair_sums(right, quarter));
-            }
-        }
-    }
-
-    /// Packs row `row` of `level` into the maps, in short passes as [`shade`] does.
-    #[inline(always)]
-    fn emit<S: Simd>(&self, simd: S, level: usize, row: usize, kept: &mut [f32], maps: &mut BandMaps<'_>) {
-        let (side, stride) = (self.n >> level, self.stride(level));
-        let displacement = &mut maps.displacement[level][row * side..][..side];
-        let gradient = &mut maps.gradient[level][row * side..][..side];
-        let (kept, scratch) = kept.split_at_mut(self.slots());
-        let vectors = side.div_ceil(S::LANES);
-        let reach = (CHANNELS - 1) * stride;
-        let from = Strided::reaching(simd, kept, self.slot(level, row), S::LANES, vectors, reach);
-        let (squares, scratch) = scratch.split_at_mut(LONGEST);
-        let (inverse, scratch) = scratch.split_at_mut(LONGEST);
-        let (rough, scratch) = scratch.split_at_mut(LONGEST);
-        let inverse_root = &mut scratch[..LONGEST];
-        // Rows are shorter than that: what is beyond them does no harm.
-        let whole = (vectors * S::LANES).next_multiple_of(INVERSE_SQRTS);
         for vector in 0..vectors {
-            let normal =
-                [from.load(vector), from.load_after(vector, stride), from.load_after(vector, 2 * stride)];
-            let square = square(normal);
-            square.store(&mut squares[vector * S::LANES..]);
-            square.store(&mut inverse[vector * S::LANES..]);
-        }
-        inverse_sqrts(simd, &mut inverse[..whole]);
-        let length = simd.splat(self.normal_length);
-        for at in (0..vectors * S::LANES).step_by(S::LANES) {
-            let rough_here = roughness(simd, simd.load(&squares[at..]) * simd.load(&inverse[at..]) * length);
-            rough_here.store(&mut rough[at..]);
-            rough_here.store(&mut inverse_root[at..]);
-        }
-        inverse_sqrts(simd, &mut inverse_root[..whole]);
-        let byte_scale = simd.splat(self.byte_scale);
-        for vector in 0..vectors {
-            let column = vector * S::LANES;
-            let inverse = simd.load(&inverse[column..]);
-            let bytes = [
-                to_byte(simd, from.load(vector) * inverse),
-                to_byte(simd, from.load_after(vector, 2 * stride) * inverse),
-                jacobian_byte(simd, from.load_after(vector, 3 * stride), byte_scale),
-                smoothness(simd, simd.load(&rough[column..]), simd.load(&inverse_root[column..])),
-            ];
-            let mut halves = [simd.splat(0.0); 4];
-            for (channel, half) in halves.iter_mut().enumerate() {
-                *half = from.load_after(vector, (4 + channel) * stride);
-            }
-            if column + S::LANES <= side {
-                S::F32::store_bytes(bytes, &mut gradient[column..]);
-                S::F32::store_halves(halves, &mut displacement[column..]);
-            } else {
-                let (mut wide_halves, mut wide_bytes) = ([[f16::ZERO; 4]; MAX_LANES], [[0; 4]; MAX_LANES]);
-                S::F32::store_bytes(bytes, &mut wide_bytes);
-                S::F32::store_halves(halves, &mut wide_halves);
-                gradient.copy_from_slice(&wide_bytes[..side]);
-                displacement.copy_from_slice(&wide_halves[..side]);
+            for channel in 0..CHANNELS {
+                let left = upper.load(2 * vector, channel) + lower.load(2 * vector, channel);
+                let right = upper.load(2 * vector + 1, channel) + lower.load(2 * vector + 1, channel);
+                to.store(vector, channel, left.pair_sums(right, quarter));
             }
         }
     }
 }
 
-/// Writes a row that is in its slot to the maps, and every row above that it completes.
+/// Takes in a row that is in its slot: the second of two is written to the maps with the first, and they become a row of the
+/// next level.
 pub struct Absorb<'a, 'm> {
     /// Whose slots.
     pub pyramid: Pyramid,
@@ -210,30 +148,15 @@ impl Kernel for Absorb<'_, '_> {
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) {
         let Self { pyramid, mut level, mut row, top, kept, maps } = self;
-        while level <= top {
-            pyramid.emit(simd, level, row, kept, maps);
-            if row & 1 == 0 || level == top {
-                return;
-            }
+        while row & 1 == 1 && level < top {
+            pack(simd, &pyramid, level, row - 1..row + 1, kept, maps);
             pyramid.halve(simd, level, row / 2, kept);
             level += 1;
             row /= 2;
         }
-    }
-}
-
-/// A row of level 1 that is being made.
-#[derive(Debug)]
-pub struct Level1<'k, S> {
-    slot: StridedMut<'k, S>,
-    stride: usize,
-}
-
-impl<S: Simd> Level1<'_, S> {
-    /// Vector `vector` of `channel`.
-    #[inline(always)]
-    pub fn store(&mut self, vector: usize, channel: usize, value: S::F32) {
-        self.slot.store_after(vector, channel * self.stride, value);
+        if level == top {
+            pack(simd, &pyramid, level, row..row + 1, kept, maps);
+        }
     }
 }
 
@@ -243,7 +166,7 @@ pub struct Top<'a, 'm> {
     pub pyramid: Pyramid,
     /// Rows in a band.
     pub band: usize,
-    /// The bands' top rows, [`Top::len`] numbers each, from [`Pyramid::top`].
+    /// The bands' top rows, [`Top::len`] numbers each, from [`Pyramid::copy_top`].
     pub tops: &'a [f32],
     /// Working space, [`Pyramid::scratch_len`].
     pub kept: &'a mut [f32],
@@ -254,15 +177,17 @@ pub struct Top<'a, 'm> {
 impl Top<'_, '_> {
     /// Numbers that a band of a grid of `n` x `n` keeps: at most the row of level 1 of a band of two rows.
     pub const fn len(n: usize) -> usize {
-        let pyramid = Pyramid { n, normal_length: 1.0, byte_scale: 1.0 };
-        CHANNELS * pyramid.stride(1)
+        CHANNELS * n / 2
     }
 }
 
 impl Pyramid {
-    /// The one row of `level`, a band's top, in its slot.
-    pub fn top<'k>(&self, level: usize, kept: &'k [f32]) -> &'k [f32] {
-        &kept[self.slot(level, 0)..][..CHANNELS * self.stride(level)]
+    /// Copies the one row of `level`, a band's top, to `to`, channel after channel.
+    pub fn copy_top(&self, level: usize, kept: &[f32], to: &mut [f32]) {
+        let (side, stride) = (self.n >> level, self.stride(level));
+        for (channel, to) in to.chunks_exact_mut(side).take(CHANNELS).enumerate() {
+            to.copy_from_slice(&kept[self.slot(level, 0) + channel * stride..][..side]);
+        }
     }
 }
 
@@ -274,9 +199,12 @@ impl Kernel for Top<'_, '_> {
         let pyramid = self.pyramid;
         let n = pyramid.n;
         let (level, last) = (self.band.ilog2() as usize, mip_levels(n) - 1);
-        let row = CHANNELS * pyramid.stride(level);
+        let side = n >> level;
         for (index, top) in self.tops.chunks_exact(Self::len(n)).take(n / self.band).enumerate() {
-            self.kept[pyramid.slot(level, index)..][..row].copy_from_slice(&top[..row]);
+            for (channel, top) in top.chunks_exact(side).take(CHANNELS).enumerate() {
+                let at = pyramid.slot(level, index) + channel * pyramid.stride(level);
+                self.kept[at..][..side].copy_from_slice(top);
+            }
             if index & 1 == 1 {
                 pyramid.halve(simd, level, index / 2, self.kept);
                 let (kept, maps) = (&mut *self.kept, &mut *self.maps);

@@ -21,6 +21,7 @@ pub mod foam;
 pub mod gradient;
 pub mod maps;
 pub mod mips;
+mod pack;
 pub mod philox;
 pub mod query;
 pub mod reference;

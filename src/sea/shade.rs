@@ -7,11 +7,10 @@ use super::{band::Shading, foam::FrameFoam};
 use super::{
     foam,
     gradient::{
-        INVERSE_SQRTS, Rows, Tangents, inverse_sqrts, jacobian_byte, roughness, smoothness, square, to_byte,
-        upward,
+        ABREAST, Rows, Tangents, inverse_sqrts, jacobian_byte, roughness, smoothness, square, to_byte, upward,
     },
     mips::{CHANNELS, Level1},
-    simd::{Float, Simd, Strided, StridedMut},
+    simd::{Float, MAX_LANES, Simd, Strided, StridedMut},
 };
 use half::f16;
 
@@ -66,7 +65,7 @@ impl<V: Float> Constants<V> {
 /// [`smoothness`] of a normal that is `length` long.
 #[inline(always)]
 pub fn unaveraged<S: Simd>(simd: S, length: f32) -> f32 {
-    let mut numbers = [0.0; INVERSE_SQRTS];
+    let mut numbers = [0.0; ABREAST * MAX_LANES];
     let roughness = roughness(simd, simd.splat(length));
     roughness.store(&mut numbers);
     inverse_sqrts(simd, &mut numbers);

@@ -19,6 +19,7 @@ mod avx2;
 mod avx512;
 #[cfg(target_arch = "x86_64")]
 mod avx512_wide;
+mod channels;
 mod isa;
 #[cfg(target_arch = "aarch64")]
 mod neon;
@@ -30,6 +31,7 @@ mod strided;
 mod x86;
 
 pub use aligned::Aligned;
+pub use channels::{Channels, ChannelsMut};
 pub use isa::{Isa, Kernel, NoSuchIsa};
 pub use strided::{Strided, StridedMut};
 
