@@ -132,7 +132,9 @@ impl<const R1: usize, const R2: usize, const M: usize> Frame<'_, '_, R1, R2, M> 
     fn shade<S: Simd>(&mut self, simd: S, window: Window, pyramid: Pyramid, smoothness: f32, v: usize) {
         let n = R1 * R2;
         let constants = Constants::new(simd, &self.shading, self.foam, smoothness);
-        let rows = [v, v + 1].map(|v| Rows::new(simd, window, self.working.planes, v));
+        let upper = Rows::new(simd, window, self.working.planes, v);
+        let lower = Rows::new(simd, window, self.working.planes, v + 1);
+        let rows = [upper, lower];
         let at = (v - self.range.start) * n..(v + 2 - self.range.start) * n;
         let remembered = &mut self.memory[at.clone()];
         // Compressions are not negative: a memory of nothing adds nothing.
@@ -154,9 +156,9 @@ impl<const R1: usize, const R2: usize, const M: usize> Frame<'_, '_, R1, R2, M> 
             }
         }
         if self.foam.is_some_and(|foam| foam.keep) {
-            let (upper, lower) = remembered.split_at_mut(n);
-            remember(simd, &rows[0], constants, upper);
-            remember(simd, &rows[1], constants, lower);
+            let memory = remembered.split_at_mut(n);
+            remember(simd, upper, constants, memory.0);
+            remember(simd, lower, constants, memory.1);
         }
         if let Some(planes) = &mut self.planes {
             for (field, plane) in planes.iter_mut().enumerate() {
@@ -204,7 +206,7 @@ impl<const R1: usize, const R2: usize, const M: usize> Kernel for Tick<'_, R1, R
                     for v in [v, v + 1] {
                         let rows = Rows::new(simd, window, self.working.planes, v);
                         let memory = &mut self.memory[(v - self.range.start) * n..][..n];
-                        remember(simd, &rows, constants, memory);
+                        remember(simd, rows, constants, memory);
                     }
                 }
             }

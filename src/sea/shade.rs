@@ -246,9 +246,9 @@ fn halve<S: Simd, F: Finish<S>>(
 
 /// A tick of the memory of one row.
 #[inline(always)]
-pub fn remember<S: Simd>(simd: S, rows: &Rows<'_, S>, constants: Constants<S::F32>, memory: &mut [f32]) {
+pub fn remember<S: Simd>(simd: S, rows: Rows<'_, S>, constants: Constants<S::F32>, memory: &mut [f32]) {
     for vector in 0..rows.vectors() {
-        let tangents = Tangents::new(rows, vector, constants.width);
+        let tangents = Tangents::new(&rows, vector, constants.width);
         let (scale, breaking) = (constants.breaking_scale, constants.breaking);
         let now = foam::compression(simd, tangents.area, scale, breaking);
         let memory = &mut memory[vector * S::LANES..];

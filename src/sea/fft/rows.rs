@@ -103,7 +103,14 @@ impl<const R1: usize, const R2: usize, const M: usize> Kernel for Rows<'_, R1, R
 
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) {
-        const { assert!(TILE.is_multiple_of(S::LANES), "tiles of whole vectors") };
+        // Longer vectors where a row fills them: groups and units are then the same.
+        if M >= <S::Wide as Simd>::LANES { self.transform(simd.wide()) } else { self.transform(simd) }
+    }
+}
+
+impl<const R1: usize, const R2: usize, const M: usize> Rows<'_, R1, R2, M> {
+    #[inline(always)]
+    fn transform<S: Simd>(self, simd: S) {
         let Self { from, v, window, planes, scratch } = self;
         let layout = Layout::of(R1, R2);
         let n = R1 * R2;
@@ -136,8 +143,9 @@ impl<const R1: usize, const R2: usize, const M: usize> Kernel for Rows<'_, R1, R
 /// The spectrum of a + i b along ku from the halves ku >= 0 of the Hermitian a and b, of which every `BLOCK`th vector from
 /// a certain one on is seen: what a first transform reads.
 struct Pair<'a, S: Simd, const M: usize> {
-    simd: S,
     part: usize,
+    /// From the first tile that a vector spans to the second.
+    tile: usize,
     /// a and b at the same ku.
     ahead: [Strided<'a, S>; 2],
     /// a and b at the opposite of those of the upper half, which is stored backwards.
@@ -149,11 +157,14 @@ struct Pair<'a, S: Simd, const M: usize> {
 }
 
 /// Beyond the last ku is the Nyquist number, where the spectra are zero.
-static NYQUIST: [f32; 2 * TILE] = [0.0; 2 * TILE];
+static NYQUIST: [f32; TILE + MAX_LANES] = [0.0; TILE + MAX_LANES];
 
 impl<'a, S: Simd, const M: usize> Pair<'a, S, M> {
     /// Vectors in a block.
     const PARTS: usize = ROW_RADIX / S::LANES;
+
+    /// Tiles that a vector spans.
+    const TILES: usize = S::LANES.div_ceil(TILE);
 
     /// The vectors `part`, `part` + [`Self::PARTS`], ..; rows of a and b begin at `at` in the first of `tiles`.
     #[inline(always)]
@@ -164,7 +175,8 @@ impl<'a, S: Simd, const M: usize> Pair<'a, S, M> {
             let ku = vector * S::LANES;
             let first = at + ku / TILE * FIELDS * tile_len + ku % TILE;
             let stride = ROW_RADIX / TILE * FIELDS * tile_len;
-            Strided::reaching(simd, tiles, first, stride, count, TILE)
+            let reach = TILE + (Self::TILES - 1) * FIELDS * tile_len;
+            Strided::reaching(simd, tiles, first, stride, count, reach)
         };
         let count = (M / 2).max(1);
         let last = count - 1;
@@ -180,8 +192,8 @@ impl<'a, S: Simd, const M: usize> Pair<'a, S, M> {
             }
         }
         Self {
-            simd,
             part,
+            tile: if Self::TILES > 1 { FIELDS * tile_len } else { 0 },
             ahead: [whole(at[0], part, count), whole(at[1], part, count)],
             mirror: [
                 whole(at[0], Self::PARTS - 1 - part, count),
@@ -197,21 +209,32 @@ impl<'a, S: Simd, const M: usize> Pair<'a, S, M> {
     fn read(&self, j: usize) -> Complex<S::F32> {
         let ahead = if M == 1 { self.part < Self::PARTS / 2 } else { j < M / 2 };
         if ahead {
-            let [a, b] = self.ahead;
-            return Complex { re: a.load(j) - b.load_after(j, TILE), im: a.load_after(j, TILE) + b.load(j) };
+            let (a, b) = (load(self.ahead[0], j, self.tile), load(self.ahead[1], j, self.tile));
+            return Complex { re: a.re - b.im, im: a.im + b.re };
         }
         let back = M - 1 - j;
-        let here = conjugate(self.mirror, back);
-        let next =
-            if back == (M / 2).max(1) - 1 { conjugate(self.edge, 0) } else { conjugate(self.next, back) };
+        let here = conjugate(self.mirror, back, self.tile);
+        // Of these only lane 0 matters.
+        let next = if back == (M / 2).max(1) - 1 {
+            conjugate(self.edge, 0, 0)
+        } else {
+            conjugate(self.next, back, 0)
+        };
         Complex { re: here.re.mirrored(next.re), im: here.im.mirrored(next.im) }
     }
 }
 
+/// Vector `index`; where it spans two tiles, the second is `tile` numbers after the first.
+#[inline(always)]
+fn load<S: Simd>(from: Strided<'_, S>, index: usize, tile: usize) -> Complex<S::F32> {
+    Complex { re: from.load_halves(index, 0, tile), im: from.load_halves(index, TILE, tile) }
+}
+
 /// conj a + i conj b.
 #[inline(always)]
-fn conjugate<S: Simd>([a, b]: [Strided<'_, S>; 2], index: usize) -> Complex<S::F32> {
-    Complex { re: a.load(index) + b.load_after(index, TILE), im: b.load(index) - a.load_after(index, TILE) }
+fn conjugate<S: Simd>(from: [Strided<'_, S>; 2], index: usize, tile: usize) -> Complex<S::F32> {
+    let (a, b) = (load(from[0], index, tile), load(from[1], index, tile));
+    Complex { re: a.re + b.im, im: b.re - a.im }
 }
 
 /// M points across blocks of sixteen, and the factors between the two transforms.

@@ -63,6 +63,15 @@ impl Simd for Avx512Wide {
     }
 
     #[inline(always)]
+    unsafe fn read_halves(self, low: *const f32, high: *const f32) -> F32x16 {
+        // SAFETY: the caller vouches for the pointers; `self` exists only with AVX-512.
+        unsafe {
+            let low = _mm512_castps256_ps512(_mm256_loadu_ps(low));
+            F32x16(_mm512_insertf32x8::<1>(low, _mm256_loadu_ps(high)))
+        }
+    }
+
+    #[inline(always)]
     fn prefetch(self, from: &f32) {
         x86::prefetch(from);
     }

@@ -69,6 +69,20 @@ pub trait Simd: Copy + Send + Sync + 'static {
     /// They may be read.
     unsafe fn read(self, from: *const f32) -> Self::F32;
 
+    /// Half as many numbers from `low` on and as many from `high` on.
+    ///
+    /// # Safety
+    /// They may be read.
+    #[inline(always)]
+    unsafe fn read_halves(self, low: *const f32, high: *const f32) -> Self::F32 {
+        let mut lanes = [0.0; MAX_LANES];
+        for lane in 0..Self::LANES / 2 {
+            // SAFETY: the caller vouches for the pointers.
+            (lanes[lane], lanes[lane + Self::LANES / 2]) = unsafe { (*low.add(lane), *high.add(lane)) };
+        }
+        self.load(&lanes)
+    }
+
     /// The first [`Simd::LANES`] numbers of `from`.
     ///
     /// # Panics

@@ -63,6 +63,24 @@ impl<'a, S: Simd> Strided<'a, S> {
 }
 
 impl<S: Simd> Strided<'_, S> {
+    /// As [`Strided::load_after`], but the upper half of the lanes begins `apart` numbers after the lower half; 0 for a
+    /// vector that is in one piece.
+    ///
+    /// # Panics
+    /// As it, for `offset` + `apart`.
+    #[inline(always)]
+    pub fn load_halves(self, index: usize, offset: usize, apart: usize) -> S::F32 {
+        if apart == 0 {
+            return self.load_after(index, offset);
+        }
+        assert!(index < self.count && apart <= self.reach && offset <= self.reach - apart);
+        // SAFETY: every vector up to `count`, and what it reaches, was checked to be within the slice.
+        unsafe {
+            let low = self.first.add(index * self.stride + offset);
+            self.simd.read_halves(low, low.add(apart))
+        }
+    }
+
     /// Asks for the cache line where vector `index` begins, which will be read soon.
     ///
     /// # Panics
