@@ -177,7 +177,7 @@ impl Kernel for Pack {
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) -> [u8; 4] {
         const SIDE: usize = 16;
-        let pyramid = Pyramid { n: 2 * SIDE, normal_length: self.1, byte_scale: 127.5 };
+        let pyramid = &Pyramid::new(2 * SIDE, self.1, 127.5);
         let mut kept = Aligned::zeros(Pyramid::scratch_len(2 * SIDE));
         {
             let (_, mut row) = pyramid.level_1(simd, 0, &mut kept);

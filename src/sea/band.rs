@@ -86,7 +86,7 @@ impl<const R1: usize, const R2: usize, const M: usize> Kernel for Frame<'_, '_, 
         let range = self.range.clone();
         // Made here, where its numbers are known to the compiler.
         let (shading, window) = (self.shading, window(R1 * R2, S::LANES));
-        let pyramid = Pyramid::new(R1 * R2, &shading.gradient);
+        let pyramid = &Pyramid::of(R1 * R2, &shading.gradient);
         let smoothness = unaveraged(simd, shading.gradient.normal_length);
         let top = top_level(range.len());
         let mut steps = Steps::new(range.clone(), R1 * R2, rows::unit(R1 * R2, S::LANES), window);
@@ -129,7 +129,7 @@ fn transform<S: Simd, const R1: usize, const R2: usize, const M: usize>(
 impl<const R1: usize, const R2: usize, const M: usize> Frame<'_, '_, R1, R2, M> {
     /// Level 0 of the rows `v` and `v` + 1, and what they become on level 1.
     #[inline(always)]
-    fn shade<S: Simd>(&mut self, simd: S, window: Window, pyramid: Pyramid, smoothness: f32, v: usize) {
+    fn shade<S: Simd>(&mut self, simd: S, window: Window, pyramid: &Pyramid, smoothness: f32, v: usize) {
         let n = R1 * R2;
         let constants = Constants::new(simd, &self.shading, self.foam, smoothness);
         let upper = Rows::new(simd, window, self.working.planes, v);

@@ -166,7 +166,7 @@ impl Cascade {
         let mut maps = split::whole(n, maps);
         with_scratch(|scratch| {
             let kept = scratch.pyramid(n);
-            let pyramid = Pyramid::new(n, &self.params);
+            let pyramid = &Pyramid::of(n, &self.params);
             self.isa.run(Top { pyramid, band, tops: &self.tops, kept, maps: &mut maps });
         });
     }

@@ -50,24 +50,41 @@ pub struct Pyramid {
     pub normal_length: f32,
     /// Turns areas into 127.5 J.
     pub byte_scale: f32,
+    /// Where row 0 of each level is kept, and where the last one ends.
+    slots: [usize; MAX_LEVELS + 1],
 }
 
 impl Pyramid {
-    /// That of a grid of `n` x `n`.
-    pub fn new(n: usize, gradient: &GradientParams) -> Self {
-        let byte_scale = 127.5 * (gradient.per_difference * gradient.per_difference);
-        Self { n, normal_length: gradient.normal_length, byte_scale }
+    /// That of a grid of `n` x `n` whose unit normals are `normal_length` long and whose areas times `byte_scale` are 127.5 J.
+    pub const fn new(n: usize, normal_length: f32, byte_scale: f32) -> Self {
+        let mut pyramid = Self { n, normal_length, byte_scale, slots: [0; MAX_LEVELS + 1] };
+        let (mut level, mut at) = (1, 0);
+        while level < mip_levels(n) {
+            pyramid.slots[level] = at;
+            // Two vectors are read of rows that are shorter than one.
+            at += CHANNELS * pyramid.stride(level) + 2 * MAX_LANES;
+            level += 1;
+        }
+        pyramid.slots[level] = at;
+        pyramid
+    }
+
+    /// That of a cascade.
+    pub fn of(n: usize, gradient: &GradientParams) -> Self {
+        let scale = gradient.per_difference * gradient.per_difference;
+        Self::new(n, gradient.normal_length, 127.5 * scale)
     }
 
     /// Numbers of working space for a grid of `n` x `n`.
     pub const fn scratch_len(n: usize) -> usize {
-        let pyramid = Self { n, normal_length: 1.0, byte_scale: 1.0 };
-        pyramid.slots() + if shade::SCRATCH > pack::SCRATCH { shade::SCRATCH } else { pack::SCRATCH }
+        let slots = Self::new(n, 1.0, 1.0).slots();
+        slots + if shade::SCRATCH > pack::SCRATCH { shade::SCRATCH } else { pack::SCRATCH }
     }
 
     /// Numbers of all slots.
+    #[inline(always)]
     pub(super) const fn slots(&self) -> usize {
-        self.slot(mip_levels(self.n), 0)
+        self.slots[mip_levels(self.n)]
     }
 
     /// Numbers from a channel to the next: two rows, and as much as a vector that begins in the second may reach beyond it.
@@ -80,14 +97,7 @@ impl Pyramid {
     /// them they are one.
     #[inline(always)]
     pub(super) const fn slot(&self, level: usize, row: usize) -> usize {
-        let mut at = 0;
-        let mut below = 1;
-        while below < level {
-            // Two vectors are read of rows that are shorter than one.
-            at += CHANNELS * self.stride(below) + 2 * MAX_LANES;
-            below += 1;
-        }
-        at + (row & 1) * (self.n >> level)
+        self.slots[level] + (row & 1) * (self.n >> level)
     }
 
     /// Working space for shading, and level 1's slot for row `row`.
@@ -129,7 +139,7 @@ impl Pyramid {
 /// next level.
 pub struct Absorb<'a, 'm> {
     /// Whose slots.
-    pub pyramid: Pyramid,
+    pub pyramid: &'a Pyramid,
     /// The row's level, 1 or more.
     pub level: usize,
     /// The row.
@@ -149,13 +159,13 @@ impl Kernel for Absorb<'_, '_> {
     fn run<S: Simd>(self, simd: S) {
         let Self { pyramid, mut level, mut row, top, kept, maps } = self;
         while row & 1 == 1 && level < top {
-            pack(simd, &pyramid, level, row - 1..row + 1, kept, maps);
+            pack(simd, pyramid, level, row - 1..row + 1, kept, maps);
             pyramid.halve(simd, level, row / 2, kept);
             level += 1;
             row /= 2;
         }
         if level == top {
-            pack(simd, &pyramid, level, row..row + 1, kept, maps);
+            pack(simd, pyramid, level, row..row + 1, kept, maps);
         }
     }
 }
@@ -163,7 +173,7 @@ impl Kernel for Absorb<'_, '_> {
 /// The levels above those that bands make by themselves.
 pub struct Top<'a, 'm> {
     /// The grid's.
-    pub pyramid: Pyramid,
+    pub pyramid: &'a Pyramid,
     /// Rows in a band.
     pub band: usize,
     /// The bands' top rows, [`Top::len`] numbers each, from [`Pyramid::copy_top`].
