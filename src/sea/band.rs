@@ -92,7 +92,9 @@ impl<const R1: usize, const R2: usize, const M: usize> Kernel for Frame<'_, '_, 
         let mut steps = Steps::new(range.clone(), R1 * R2, rows::unit(R1 * R2, S::LANES), window);
         while let Some(step) = steps.next() {
             match step {
-                Step::Transform(v) => transform::<S, R1, R2, M>(simd, &shading, window, v, &mut self.working),
+                Step::Transform(rows) => {
+                    transform::<S, R1, R2, M>(simd, &shading, window, rows, &mut self.working)
+                }
                 Step::Shade(v) => {
                     // A pair of the longest vectors may be longer than a row.
                     if R1 * R2 < 2 * <S::Wide as Simd>::LANES {
@@ -110,18 +112,18 @@ impl<const R1: usize, const R2: usize, const M: usize> Kernel for Frame<'_, '_, 
     }
 }
 
-/// One unit of rows, into the window.
+/// Some rows, into the window.
 #[inline(always)]
 fn transform<S: Simd, const R1: usize, const R2: usize, const M: usize>(
     simd: S,
     shading: &Shading<'_>,
     window: Window,
-    v: usize,
+    rows: Range<usize>,
     working: &mut Working<'_>,
 ) {
     let (planes, scratch) = (&mut *working.planes, &mut *working.rows);
-    simd.run(rows::Rows::<R1, R2, M> { from: shading.half, v, window, planes, scratch });
-    for row in v..v + rows::unit(R1 * R2, S::LANES) {
+    simd.run(rows::Rows::<R1, R2, M> { from: shading.half, rows: rows.clone(), window, planes, scratch });
+    for row in rows {
         window.wrap(working.planes, row);
     }
 }
@@ -199,8 +201,8 @@ impl<const R1: usize, const R2: usize, const M: usize> Kernel for Tick<'_, R1, R
         let mut steps = Steps::new(self.range.clone(), n, rows::unit(n, S::LANES), window);
         while let Some(step) = steps.next() {
             match step {
-                Step::Transform(v) => {
-                    transform::<S, R1, R2, M>(simd, &self.shading, window, v, &mut self.working)
+                Step::Transform(rows) => {
+                    transform::<S, R1, R2, M>(simd, &self.shading, window, rows, &mut self.working)
                 }
                 Step::Shade(v) => {
                     for v in [v, v + 1] {
@@ -216,8 +218,8 @@ impl<const R1: usize, const R2: usize, const M: usize> Kernel for Tick<'_, R1, R
 
 /// What a band does next.
 enum Step {
-    /// Transform the unit of rows that begins here.
-    Transform(usize),
+    /// Transform these rows: a unit, or all.
+    Transform(Range<usize>),
     /// Shade this even row and the next.
     Shade(usize),
 }
@@ -249,8 +251,9 @@ impl Steps {
         let wanted = if self.whole { 2 * self.n } else { self.n + self.shaded + 3 };
         if self.ready < wanted {
             let v = self.ready % self.n;
-            self.ready += self.unit;
-            return Some(Step::Transform(v));
+            let count = if self.whole { self.n } else { self.unit };
+            self.ready += count;
+            return Some(Step::Transform(v..v + count));
         }
         let v = self.shaded;
         self.shaded += 2;

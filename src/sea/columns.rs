@@ -35,7 +35,11 @@ impl<const R1: usize, const R2: usize, const M: usize> Kernel for StepColumns<'_
         let tiles = out.chunks_exact_mut(Layout::of(R1, R2).tile_len());
         for (field, tile) in tiles.take(FIELDS).enumerate() {
             match field {
-                0 => simd.run(Columns::<_, R1, R2> { source: Stored { tile: height }, twiddles, tile }),
+                0 => simd.run(Columns::<_, R1, R2> {
+                    source: Stored { tile: height, far: false },
+                    twiddles,
+                    tile,
+                }),
                 1 => simd.run(Columns::<_, R1, R2> { source: along_u, twiddles, tile }),
                 _ => simd.run(Columns::<_, R1, R2> { source: AlongV(along_u), twiddles, tile }),
             }

@@ -147,7 +147,14 @@ impl<'a, S: Simd, const R1: usize, const R2: usize> UnitRows<'a, S, R1, R2> {
         let half = R1 / 2;
         Self {
             simd,
-            height: StoredRows::new(simd, waves.height, q * ROW + lane, Layout::of(R1, R2).group_len(), R1),
+            height: StoredRows::new(
+                simd,
+                waves.height,
+                q * ROW + lane,
+                Layout::of(R1, R2).group_len(),
+                R1,
+                false,
+            ),
             inverse: Strided::new(simd, inverse, q * TILE + lane, R2 * TILE, half),
             mirrored: Strided::new(simd, inverse, (R2 - q) * TILE + lane, R2 * TILE, half),
             component,
@@ -167,4 +174,7 @@ impl<S: Simd, const R1: usize, const R2: usize> Rows<S> for UnitRows<'_, S, R1, 
         let height = self.height.load(p);
         Complex { re: -(unit * height.im), im: unit * height.re }
     }
+
+    #[inline(always)]
+    fn prefetch(self, _: usize) {}
 }

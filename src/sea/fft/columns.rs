@@ -5,6 +5,9 @@ use super::{
 };
 use crate::sea::simd::{Kernel, Simd, Strided, StridedMut};
 
+/// Rows of a group that are asked for before they are needed: no hardware foresees sixteen streams.
+const AHEAD: usize = 2;
+
 /// Where the numbers of some columns come from.
 pub trait Source: Copy {
     /// The rows kv = q + R2 p for p in 0..R1, of the lanes from `lane` on.
@@ -15,6 +18,8 @@ pub trait Source: Copy {
 pub trait Rows<S: Simd>: Copy {
     /// Row q + R2 `p`.
     fn load(self, p: usize) -> Complex<S::F32>;
+    /// Asks for what will be loaded a little later.
+    fn prefetch(self, p: usize);
 }
 
 /// A tile that is stored as it is.
@@ -22,12 +27,14 @@ pub trait Rows<S: Simd>: Copy {
 pub struct Stored<'a> {
     /// The tile.
     pub tile: &'a [f32],
+    /// Whether it lies in a cache that is far enough away to ask for it beforehand.
+    pub far: bool,
 }
 
 impl Source for Stored<'_> {
     #[inline(always)]
     fn rows<S: Simd, const R1: usize, const R2: usize>(self, simd: S, q: usize, lane: usize) -> impl Rows<S> {
-        StoredRows::new(simd, self.tile, q * ROW + lane, Layout::of(R1, R2).group_len(), R1)
+        StoredRows::new(simd, self.tile, q * ROW + lane, Layout::of(R1, R2).group_len(), R1, self.far)
     }
 }
 
@@ -36,14 +43,15 @@ impl Source for Stored<'_> {
 pub struct StoredRows<'a, S> {
     re: Strided<'a, S>,
     im: Strided<'a, S>,
+    far: bool,
 }
 
 impl<'a, S: Simd> StoredRows<'a, S> {
-    /// `count` of them, the first at `first`.
+    /// `count` of them, the first at `first`; `far` as in [`Stored`].
     #[inline(always)]
-    pub fn new(simd: S, tile: &'a [f32], first: usize, stride: usize, count: usize) -> Self {
+    pub fn new(simd: S, tile: &'a [f32], first: usize, stride: usize, count: usize, far: bool) -> Self {
         let re = Strided::new(simd, tile, first, stride, count);
-        Self { re, im: Strided::new(simd, tile, first + TILE, stride, count) }
+        Self { re, im: Strided::new(simd, tile, first + TILE, stride, count), far }
     }
 }
 
@@ -51,6 +59,13 @@ impl<S: Simd> Rows<S> for StoredRows<'_, S> {
     #[inline(always)]
     fn load(self, p: usize) -> Complex<S::F32> {
         Complex { re: self.re.load(p), im: self.im.load(p) }
+    }
+
+    #[inline(always)]
+    fn prefetch(self, p: usize) {
+        if self.far {
+            self.re.prefetch_after(p, AHEAD * ROW);
+        }
     }
 }
 
@@ -109,6 +124,7 @@ struct First<'a, S, F> {
 impl<S: Simd, F: Rows<S>> Points<S> for First<'_, S, F> {
     #[inline(always)]
     fn read(&self, p: usize) -> Complex<S::F32> {
+        self.from.prefetch(p);
         self.from.load(p)
     }
 

@@ -8,6 +8,7 @@ use super::{
     layout::{FIELDS, Layout, ROW_RADIX, TILE},
 };
 use crate::sea::simd::{Float, Kernel, MAX_LANES, Simd, Strided, StridedMut};
+use std::ops::Range;
 
 /// Numbers kept free before and after a row of a [`Window`], for its neighbours around the patch.
 const MARGIN: usize = 16;
@@ -84,12 +85,12 @@ pub struct HalfSpectra<'a> {
     pub twiddles: &'a [f32],
 }
 
-/// Transforms a [`unit`] of rows, N = `R1` x `R2` = 16 x `M`.
+/// Transforms some [`unit`]s of rows, N = `R1` x `R2` = 16 x `M`.
 pub struct Rows<'a, const R1: usize, const R2: usize, const M: usize> {
     /// What is read.
     pub from: HalfSpectra<'a>,
-    /// The unit's first row.
-    pub v: usize,
+    /// The rows, from a unit's first.
+    pub rows: Range<usize>,
     /// Where rows lie in `planes`.
     pub window: Window,
     /// What is written.
@@ -111,32 +112,47 @@ impl<const R1: usize, const R2: usize, const M: usize> Kernel for Rows<'_, R1, R
 impl<const R1: usize, const R2: usize, const M: usize> Rows<'_, R1, R2, M> {
     #[inline(always)]
     fn transform<S: Simd>(self, simd: S) {
-        let Self { from, v, window, planes, scratch } = self;
-        let layout = Layout::of(R1, R2);
         let n = R1 * R2;
-        let group = group(n, S::LANES);
-        let scratch = &mut scratch[..2 * n * group];
-        let from = HalfSpectra { twiddles: &from.twiddles[..2 * n], ..from };
-        // Two groups of h + i Du, then one of Dv.
-        for pass in 0..3 {
-            let mut to = [[0; 2]; MAX_LANES];
-            for r in 0..group {
-                let row = &mut scratch[2 * n * r..2 * n * (r + 1)];
-                let tile_len = layout.tile_len();
-                if pass < 2 {
-                    let v = v + pass * group + r;
-                    let at = layout.transformed_row(v);
-                    first::<S, M>(simd, from, tile_len, [at, tile_len + at], row);
-                    to[r] = [window.row(0, v), window.row(1, v)];
-                } else {
-                    let v = v + 2 * r;
-                    let at = [v, v + 1].map(|v| 2 * tile_len + layout.transformed_row(v));
-                    first::<S, M>(simd, from, tile_len, at, row);
-                    to[r] = [window.row(2, v), window.row(2, v + 1)];
-                }
-            }
-            second::<S, M>(simd, scratch, to, planes);
+        let window = Window { n, ..self.window };
+        // Lengths that the compiler knows, and row numbers within them: nothing is left to be checked below.
+        let tiles = &self.from.tiles[..Layout::of(R1, R2).tiles() * FIELDS * Layout::of(R1, R2).tile_len()];
+        let from = HalfSpectra { twiddles: &self.from.twiddles[..2 * n], tiles };
+        for v in self.rows.step_by(unit(n, S::LANES)) {
+            transform_unit::<S, R1, R2, M>(simd, from, v, window, self.planes, self.scratch);
         }
+    }
+}
+
+/// Two groups of h + i Du, then one of Dv.
+#[inline(always)]
+fn transform_unit<S: Simd, const R1: usize, const R2: usize, const M: usize>(
+    simd: S,
+    from: HalfSpectra<'_>,
+    v: usize,
+    window: Window,
+    planes: &mut [f32],
+    scratch: &mut [f32],
+) {
+    let layout = Layout::of(R1, R2);
+    let (n, tile_len, group) = (R1 * R2, layout.tile_len(), group(R1 * R2, S::LANES));
+    let scratch = &mut scratch[..2 * n * group];
+    for pass in 0..3 {
+        let mut to = [[0; 2]; MAX_LANES];
+        for r in 0..group {
+            let row = &mut scratch[2 * n * r..2 * n * (r + 1)];
+            if pass < 2 {
+                let v = v + pass * group + r;
+                let at = layout.transformed_row(v % n);
+                first::<S, M>(simd, from, tile_len, [at, tile_len + at], row);
+                to[r] = [window.row(0, v), window.row(1, v)];
+            } else {
+                let v = v + 2 * r;
+                let at = [v, v + 1].map(|v| 2 * tile_len + layout.transformed_row(v % n));
+                first::<S, M>(simd, from, tile_len, at, row);
+                to[r] = [window.row(2, v), window.row(2, v + 1)];
+            }
+        }
+        second::<S, M>(simd, scratch, to, planes);
     }
 }
 

@@ -12,6 +12,9 @@ use crate::sea::{
     spectrum::signed,
 };
 
+/// The largest grid whose spectra are close at hand, all in the second cache.
+const LARGEST_AT_HAND: usize = 128;
+
 /// Three stored half spectra and the planes they become.
 #[derive(Clone, Debug)]
 pub struct ThreeFields {
@@ -109,13 +112,15 @@ impl<const R1: usize, const R2: usize, const M: usize> Kernel for Inverse<'_, R1
         let tiles = self.stored.chunks_exact(layout.tile_len());
         for (tile, half) in tiles.zip(self.half.chunks_exact_mut(layout.tile_len())) {
             let twiddles = &self.twiddles.columns;
-            simd.run(Columns::<_, R1, R2> { source: Stored { tile }, twiddles, tile: half });
+            simd.run(Columns::<_, R1, R2> {
+                source: Stored { tile, far: R1 * R2 > LARGEST_AT_HAND },
+                twiddles,
+                tile: half,
+            });
         }
         let window = Window { n: R1 * R2, rows: R1 * R2 };
         let from = HalfSpectra { tiles: self.half, twiddles: &self.twiddles.rows };
-        for v in (0..R1 * R2).step_by(rows::unit(R1 * R2, S::LANES)) {
-            let (planes, scratch) = (&mut *self.planes, &mut *self.scratch);
-            simd.run(Rows::<R1, R2, M> { from, v, window, planes, scratch });
-        }
+        let (planes, scratch) = (self.planes, self.scratch);
+        simd.run(Rows::<R1, R2, M> { from, rows: 0..R1 * R2, window, planes, scratch });
     }
 }

@@ -58,7 +58,7 @@ impl Simd for Avx2 {
     }
 
     #[inline(always)]
-    fn prefetch(self, from: &f32) {
+    fn prefetch(self, from: *const f32) {
         x86::prefetch(from);
     }
 

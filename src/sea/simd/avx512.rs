@@ -52,7 +52,7 @@ impl Simd for Avx512 {
     }
 
     #[inline(always)]
-    fn prefetch(self, from: &f32) {
+    fn prefetch(self, from: *const f32) {
         self.0.prefetch(from);
     }
 

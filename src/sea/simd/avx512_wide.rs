@@ -72,7 +72,7 @@ impl Simd for Avx512Wide {
     }
 
     #[inline(always)]
-    fn prefetch(self, from: &f32) {
+    fn prefetch(self, from: *const f32) {
         x86::prefetch(from);
     }
 

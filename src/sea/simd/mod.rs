@@ -94,7 +94,7 @@ pub trait Simd: Copy + Send + Sync + 'static {
     }
 
     /// Asks for the cache line of `from`, which will be read soon.
-    fn prefetch(self, from: &f32);
+    fn prefetch(self, from: *const f32);
 
     /// The pairs of `table` at the first [`Simd::LANES`] of `indices`, as a vector of first and one of second numbers.
     ///

@@ -54,8 +54,7 @@ impl Simd for Neon {
     }
 
     #[inline(always)]
-    fn prefetch(self, from: &f32) {
-        let from = from.as_ptr();
+    fn prefetch(self, from: *const f32) {
         // SAFETY: a prefetch of any address at all is allowed, and changes nothing that a program could see.
         unsafe {
             asm!("prfm pldl1keep, [{from}]", from = in(reg) from, options(nostack, preserves_flags, readonly));

@@ -37,7 +37,7 @@ impl Simd for Scalar {
     }
 
     #[inline(always)]
-    fn prefetch(self, _: &f32) {}
+    fn prefetch(self, _: *const f32) {}
 
     #[inline(always)]
     fn pairs(self, table: &[[f32; 2]], indices: &[u16]) -> [F32x1; 2] {

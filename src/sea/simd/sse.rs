@@ -54,7 +54,7 @@ impl Simd for Sse {
     }
 
     #[inline(always)]
-    fn prefetch(self, from: &f32) {
+    fn prefetch(self, from: *const f32) {
         x86::prefetch(from);
     }
 

@@ -81,15 +81,10 @@ impl<S: Simd> Strided<'_, S> {
         }
     }
 
-    /// Asks for the cache line where vector `index` begins, which will be read soon.
-    ///
-    /// # Panics
-    /// As [`Strided::load`].
+    /// Asks for the cache line `offset` numbers after vector `index`, which will be read soon; it may be anywhere.
     #[inline(always)]
-    pub fn prefetch(self, index: usize) {
-        assert!(index < self.count);
-        // SAFETY: the vector was checked to be within the slice, so its first number is.
-        self.simd.prefetch(unsafe { &*self.first.add(index * self.stride) });
+    pub fn prefetch_after(self, index: usize, offset: usize) {
+        self.simd.prefetch(self.first.wrapping_add(index * self.stride + offset));
     }
 }
 
@@ -160,6 +155,14 @@ impl<'a, S: Simd> StridedMut<'a, S> {
         assert!(index < self.count && offset <= self.reach);
         // SAFETY: every vector up to `count`, and what it reaches, was checked to be within the slice.
         unsafe { simd.read(self.first.add(index * self.stride + offset)) }
+    }
+}
+
+impl<S: Simd> StridedMut<'_, S> {
+    /// Asks for the cache line `offset` numbers after vector `index`; it may be anywhere.
+    #[inline(always)]
+    pub fn prefetch_after(&self, simd: S, index: usize, offset: usize) {
+        simd.prefetch(self.first.wrapping_add(index * self.stride + offset));
     }
 }
 

@@ -22,10 +22,10 @@ pub fn pairs(table: &[[f32; 2]], indices: &[u16]) -> [__m128; 2] {
 
 /// Asks for the cache line of `from`.
 #[inline(always)]
-pub fn prefetch(from: &f32) {
+pub fn prefetch(from: *const f32) {
     // SAFETY: a prefetch of any address at all is allowed, and changes nothing that a program could see; SSE is part of
     // x86-64.
-    unsafe { _mm_prefetch::<_MM_HINT_T0>(std::ptr::from_ref(from).cast()) }
+    unsafe { _mm_prefetch::<_MM_HINT_T0>(from.cast()) }
 }
 
 /// Makes the compiler align the stack of the function it is inlined into for vectors.
