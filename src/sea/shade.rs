@@ -16,6 +16,7 @@ use half::f16;
 
 /// Texels that go through all passes together.
 const CHUNK: usize = 64;
+const _: () = assert!(CHUNK.is_multiple_of(ABREAST * MAX_LANES), "whole sets of roots");
 
 /// Numbers of a texel between passes: its normal along u and v, [`Tangents::area`], and what its normal is multiplied by.
 const NUMBERS: usize = 4;

@@ -3,7 +3,7 @@
 //! A machine flips between quiet and busy within seconds, by a factor that exceeds what is to be measured. Cases that
 //! are run one after the other meet different machines, and their ratio says little. Here a group's cases go round: a
 //! burst of some milliseconds each, begun with a call that is not counted (it brings code and data back into the
-//! caches), then calls that are timed one by one.
+//! caches; several threads need more of them), then calls that are timed one by one.
 use super::{BenchError, samples::Samples};
 use crate::jobs::Workers;
 use std::time::{Duration, Instant};
@@ -12,6 +12,9 @@ use std::time::{Duration, Instant};
 pub const ROUNDS: u32 = 40;
 /// Calls that a turn has room for where one is spent on the caches.
 const CALLS: u32 = 3;
+/// What a turn of several threads spends on calls that are not counted: threads that slept wake up on one core, and the
+/// system takes milliseconds to give each its own.
+const SETTLING: Duration = Duration::from_millis(20);
 
 /// What is timed.
 pub trait Body: Send {
@@ -113,6 +116,10 @@ impl Case {
             return Ok(());
         }
         if self.latest * CALLS < turn {
+            self.call(false)?;
+        }
+        let start = Instant::now();
+        while self.label.threads > 1 && start.elapsed() < SETTLING {
             self.call(false)?;
         }
         self.call(true)?;
