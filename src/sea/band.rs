@@ -6,7 +6,7 @@ use super::{
     gradient::{GradientParams, Rows},
     mips::{Absorb, BandMaps, Pyramid},
     settings::NormalKind,
-    shade::{self, Constants, TexelRow, remember, unaveraged},
+    shade::{self, Constants, TexelRow, remember},
     simd::{Kernel, MAX_LANES, Simd},
 };
 use std::ops::Range;
@@ -87,7 +87,6 @@ impl<const R1: usize, const R2: usize, const M: usize> Kernel for Frame<'_, '_, 
         // Made here, where its numbers are known to the compiler.
         let (shading, window) = (self.shading, window(R1 * R2, S::LANES));
         let pyramid = &Pyramid::of(R1 * R2, &shading.gradient);
-        let smoothness = unaveraged(simd, shading.gradient.normal_length);
         let top = top_level(range.len());
         let mut steps = Steps::new(range.clone(), R1 * R2, rows::unit(R1 * R2, S::LANES), window);
         while let Some(step) = steps.next() {
@@ -98,9 +97,9 @@ impl<const R1: usize, const R2: usize, const M: usize> Kernel for Frame<'_, '_, 
                 Step::Shade(v) => {
                     // A pair of the longest vectors may be longer than a row.
                     if R1 * R2 < 2 * <S::Wide as Simd>::LANES {
-                        self.shade(simd, window, pyramid, smoothness, v);
+                        self.shade(simd, window, pyramid, v);
                     } else {
-                        self.shade(simd.wide(), window, pyramid, smoothness, v);
+                        self.shade(simd.wide(), window, pyramid, v);
                     }
                     let row = (v - range.start) / 2;
                     let (kept, maps) = (&mut *self.working.kept, &mut *self.maps);
@@ -131,9 +130,9 @@ fn transform<S: Simd, const R1: usize, const R2: usize, const M: usize>(
 impl<const R1: usize, const R2: usize, const M: usize> Frame<'_, '_, R1, R2, M> {
     /// Level 0 of the rows `v` and `v` + 1, and what they become on level 1.
     #[inline(always)]
-    fn shade<S: Simd>(&mut self, simd: S, window: Window, pyramid: &Pyramid, smoothness: f32, v: usize) {
+    fn shade<S: Simd>(&mut self, simd: S, window: Window, pyramid: &Pyramid, v: usize) {
         let n = R1 * R2;
-        let constants = Constants::new(simd, &self.shading, self.foam, smoothness);
+        let constants = Constants::new(simd, &self.shading, self.foam);
         let upper = Rows::new(simd, window, self.working.planes, v);
         let lower = Rows::new(simd, window, self.working.planes, v + 1);
         let rows = [upper, lower];
@@ -197,7 +196,7 @@ impl<const R1: usize, const R2: usize, const M: usize> Kernel for Tick<'_, R1, R
         let n = R1 * R2;
         let window = window(n, S::LANES);
         let foam = FrameFoam { lost: self.decay, keep: true };
-        let constants = Constants::new(simd, &self.shading, Some(foam), 0.0);
+        let constants = Constants::new(simd, &self.shading, Some(foam));
         let mut steps = Steps::new(self.range.clone(), n, rows::unit(n, S::LANES), window);
         while let Some(step) = steps.next() {
             match step {

@@ -167,20 +167,14 @@ pub fn square<V: Float>([x, y, z]: [V; 3]) -> V {
     x.mul_add(x, y.mul_add(y, z * z))
 }
 
-/// The square of 1 less the smoothness, 0..=1, of a normal's length, eq (53).
+/// 255 times the smoothness, 0..=1, of a normal's length, eq (53).
 #[inline(always)]
-pub fn roughness<S: Simd>(simd: S, length: S::F32) -> S::F32 {
-    let (zero, one) = (simd.splat(0.0), simd.splat(1.0));
+pub fn smoothness<S: Simd>(simd: S, length: S::F32) -> S::F32 {
+    let (zero, one, scale) = (simd.splat(0.0), simd.splat(1.0), simd.splat(255.0));
     // 3 (length - 2/3), and the quadratic 1 - t (0.85 + 0.15 t) in factors: both then end exactly at smooth water.
     let t = length.mul_add(simd.splat(3.0), simd.splat(-2.0)).max(zero).min(one);
-    (one - t) * t.mul_add(simd.splat(0.15), one)
-}
-
-/// 255 times the smoothness whose [`roughness`] this is, its inverse root beside it.
-#[inline(always)]
-pub fn smoothness<S: Simd>(simd: S, roughness: S::F32, inverse_root: S::F32) -> S::F32 {
-    let (scale, zero) = (simd.splat(255.0), simd.splat(0.0));
-    (roughness * inverse_root).neg_mul_add(scale, scale).max(zero)
+    let roughness = (one - t) * t.mul_add(simd.splat(0.15), one);
+    roughness.sqrt().neg_mul_add(scale, scale).max(zero)
 }
 
 /// -1..=1 as 0..=255, eq (51).

@@ -1,6 +1,6 @@
 //! Averaged texels as the maps hold them, eqs (50)-(53).
 use super::{
-    gradient::{ABREAST, inverse_sqrts, jacobian_byte, roughness, smoothness, square, to_byte},
+    gradient::{ABREAST, inverse_sqrts, jacobian_byte, smoothness, square, to_byte},
     mips::{BandMaps, CHANNELS, Pyramid},
     simd::{Channels, Float, MAX_LANES, Simd},
 };
@@ -11,7 +11,7 @@ use std::ops::Range;
 const LONGEST: usize = 512;
 
 /// Numbers of working space.
-pub const SCRATCH: usize = 4 * LONGEST;
+pub const SCRATCH: usize = 2 * LONGEST;
 
 /// Packs `rows` of `level`, two or one, into the maps, in short passes as [`super::shade`] does.
 #[inline(always)]
@@ -32,26 +32,17 @@ pub fn pack<S: Simd>(
     let first = pyramid.slot(level, rows.start);
     let from = Channels::<S, CHANNELS>::new(simd, kept, first, stride, vectors);
     let (squares, scratch) = scratch.split_at_mut(LONGEST);
-    let (inverse, scratch) = scratch.split_at_mut(LONGEST);
-    let (rough, scratch) = scratch.split_at_mut(LONGEST);
-    let inverse_root = &mut scratch[..LONGEST];
-    // What is beyond the rows does no harm.
-    let whole = (vectors * S::LANES).next_multiple_of(ABREAST * S::LANES);
+    let inverse = &mut scratch[..LONGEST];
     for vector in 0..vectors {
         let normal = [from.load(vector, 0), from.load(vector, 1), from.load(vector, 2)];
         let square = square(normal);
         square.store(&mut squares[vector * S::LANES..]);
         square.store(&mut inverse[vector * S::LANES..]);
     }
+    // What is beyond the rows does no harm.
+    let whole = (vectors * S::LANES).next_multiple_of(ABREAST * S::LANES);
     inverse_sqrts(simd, &mut inverse[..whole]);
-    let length = simd.splat(pyramid.normal_length);
-    for at in (0..vectors * S::LANES).step_by(S::LANES) {
-        let roughness = roughness(simd, simd.load(&squares[at..]) * simd.load(&inverse[at..]) * length);
-        roughness.store(&mut rough[at..]);
-        roughness.store(&mut inverse_root[at..]);
-    }
-    inverse_sqrts(simd, &mut inverse_root[..whole]);
-    let byte_scale = simd.splat(pyramid.byte_scale);
+    let (length, byte_scale) = (simd.splat(pyramid.normal_length), simd.splat(pyramid.byte_scale));
     for vector in 0..vectors {
         let at = vector * S::LANES;
         let inverse = simd.load(&inverse[at..]);
@@ -59,7 +50,7 @@ pub fn pack<S: Simd>(
             to_byte(simd, from.load(vector, 0) * inverse),
             to_byte(simd, from.load(vector, 2) * inverse),
             jacobian_byte(simd, from.load(vector, 3), byte_scale),
-            smoothness(simd, simd.load(&rough[at..]), simd.load(&inverse_root[at..])),
+            smoothness(simd, simd.load(&squares[at..]) * inverse * length),
         ];
         let halves = [from.load(vector, 4), from.load(vector, 5), from.load(vector, 6), from.load(vector, 7)];
         if at + S::LANES <= texels.len() {

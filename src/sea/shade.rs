@@ -6,9 +6,7 @@
 use super::{band::Shading, foam::FrameFoam};
 use super::{
     foam,
-    gradient::{
-        ABREAST, Rows, Tangents, inverse_sqrts, jacobian_byte, roughness, smoothness, square, to_byte, upward,
-    },
+    gradient::{ABREAST, Rows, Tangents, inverse_sqrts, jacobian_byte, smoothness, square, to_byte, upward},
     mips::{CHANNELS, Level1},
     simd::{Float, MAX_LANES, Simd, Strided, StridedMut},
 };
@@ -43,36 +41,19 @@ pub struct Constants<V> {
 }
 
 impl<V: Float> Constants<V> {
-    /// Those of a cascade; `smoothness` is [`unaveraged`].
+    /// Those of a cascade.
     #[inline(always)]
-    pub fn new<S: Simd<F32 = V>>(
-        simd: S,
-        shading: &Shading<'_>,
-        foam: Option<FrameFoam>,
-        smoothness: f32,
-    ) -> Self {
+    pub fn new<S: Simd<F32 = V>>(simd: S, shading: &Shading<'_>, foam: Option<FrameFoam>) -> Self {
         let unit = shading.gradient.per_difference * shading.gradient.per_difference;
         Self {
             width: simd.splat(1.0 / shading.gradient.per_difference),
             byte_scale: simd.splat(127.5 * unit),
             breaking_scale: simd.splat(shading.breaking * unit),
-            smoothness: simd.splat(smoothness),
+            smoothness: smoothness(simd, simd.splat(shading.gradient.normal_length)),
             breaking: simd.splat(shading.breaking),
             lost: simd.splat(foam.map_or(0.0, |foam| foam.lost)),
         }
     }
-}
-
-/// [`smoothness`] of a normal that is `length` long.
-#[inline(always)]
-pub fn unaveraged<S: Simd>(simd: S, length: f32) -> f32 {
-    let mut numbers = [0.0; ABREAST * MAX_LANES];
-    let roughness = roughness(simd, simd.splat(length));
-    roughness.store(&mut numbers);
-    inverse_sqrts(simd, &mut numbers);
-    let smoothness = smoothness(simd, roughness, simd.load(&numbers));
-    smoothness.store(&mut numbers);
-    numbers[0]
 }
 
 /// Where a row of level 0 goes.

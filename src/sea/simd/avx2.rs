@@ -169,6 +169,12 @@ impl Float for F32x8 {
     }
 
     #[inline(always)]
+    fn sqrt(self) -> Self {
+        // SAFETY: vectors exist only with AVX2.
+        Self(unsafe { _mm256_sqrt_ps(self.0) })
+    }
+
+    #[inline(always)]
     fn inverse_sqrt_seed(self) -> Self {
         // SAFETY: vectors exist only with AVX2.
         unsafe {

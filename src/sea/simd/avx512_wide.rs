@@ -209,6 +209,12 @@ impl Float for F32x16 {
     }
 
     #[inline(always)]
+    fn sqrt(self) -> Self {
+        // SAFETY: vectors exist only with AVX-512.
+        Self(unsafe { _mm512_sqrt_ps(self.0) })
+    }
+
+    #[inline(always)]
     fn inverse_sqrt_seed(self) -> Self {
         // SAFETY: vectors exist only with AVX-512.
         unsafe {

@@ -123,6 +123,8 @@ pub trait Float:
     fn min(self, other: Self) -> Self;
     /// Without its sign.
     fn abs(self) -> Self;
+    /// The root, correctly rounded.
+    fn sqrt(self) -> Self;
     /// 1 / sqrt(self) to 3.5 %, from the exponent's bits; some number where `self` is 0.
     fn inverse_sqrt_seed(self) -> Self;
 

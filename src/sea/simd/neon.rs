@@ -161,6 +161,12 @@ impl Float for F32x4 {
     }
 
     #[inline(always)]
+    fn sqrt(self) -> Self {
+        // SAFETY: vectors exist only with NEON.
+        Self(unsafe { vsqrtq_f32(self.0) })
+    }
+
+    #[inline(always)]
     fn inverse_sqrt_seed(self) -> Self {
         // SAFETY: vectors exist only with NEON.
         unsafe {

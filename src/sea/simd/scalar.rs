@@ -110,6 +110,11 @@ impl Float for F32x1 {
     }
 
     #[inline(always)]
+    fn sqrt(self) -> Self {
+        Self(self.0.sqrt())
+    }
+
+    #[inline(always)]
     fn inverse_sqrt_seed(self) -> Self {
         Self(f32::from_bits(super::SEED.wrapping_sub(self.0.to_bits() >> 1)))
     }

@@ -148,6 +148,12 @@ impl Float for F32x4 {
     }
 
     #[inline(always)]
+    fn sqrt(self) -> Self {
+        // SAFETY: vectors exist only with SSE4.1.
+        Self(unsafe { _mm_sqrt_ps(self.0) })
+    }
+
+    #[inline(always)]
     fn inverse_sqrt_seed(self) -> Self {
         // SAFETY: vectors exist only with SSE4.1.
         unsafe {

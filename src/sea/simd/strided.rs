@@ -158,14 +158,6 @@ impl<'a, S: Simd> StridedMut<'a, S> {
     }
 }
 
-impl<S: Simd> StridedMut<'_, S> {
-    /// Asks for the cache line `offset` numbers after vector `index`; it may be anywhere.
-    #[inline(always)]
-    pub fn prefetch_after(&self, simd: S, index: usize, offset: usize) {
-        simd.prefetch(self.first.wrapping_add(index * self.stride + offset));
-    }
-}
-
 /// Every number that may be read or written is within `len`; what overflows is not.
 #[inline(always)]
 fn check<S: Simd>(len: usize, first: usize, stride: usize, count: usize, reach: usize) {
