@@ -2,6 +2,7 @@
 //!
 //! [`harness`] lets the cases of one size take turns; what a case is stands in the file of its name. See
 //! `docs/performance.md` for what each row means.
+mod cores;
 mod fields;
 mod harness;
 mod lod;
@@ -110,6 +111,7 @@ pub fn bench(options: &BenchOptions, mut out: impl Write) -> Result<(), CommandE
 fn cases(selection: &Selection, n: usize) -> Result<Vec<Case>, BenchError> {
     let mut cases = rivals::cases(selection, n)?;
     cases.extend(sea::cases(selection, n)?);
+    cases.extend(cores::cases(selection, n));
     if n == selection.detail {
         cases.extend(query::cases(selection)?);
         cases.extend(upload::cases(selection)?);

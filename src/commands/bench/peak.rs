@@ -35,6 +35,11 @@ impl Kernel for Chains {
     }
 }
 
+/// The chains once, on the best instruction set.
+pub fn chains() {
+    black_box(Isa::best().run(Chains));
+}
+
 /// Billions of operations a second of one thread, a multiplication and its addition counted as two. The fastest sample
 /// counts: nothing but the machine's other work makes one slower.
 pub fn measure(isa: Isa) -> f64 {

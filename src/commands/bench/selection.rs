@@ -5,7 +5,7 @@ use crate::sea::simd::{Isa, NoSuchIsa};
 use std::str::FromStr;
 
 /// Every case, as `--only` names it. Some give several rows: see `docs/performance.md`.
-pub const CASES: [&str; 13] = [
+pub const CASES: [&str; 14] = [
     "fft3",
     "step",
     "stages",
@@ -19,6 +19,7 @@ pub const CASES: [&str; 13] = [
     "fftw3",
     "rustfft2",
     "paper_step",
+    "cores",
 ];
 
 /// Those that need the feature `rivals`.
