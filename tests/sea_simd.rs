@@ -5,7 +5,9 @@ use half::f16;
 use sea_common::{cascades, settings};
 use swell::jobs::Workers;
 use swell::sea::gradient::{ABREAST, inverse_sqrts};
-use swell::sea::simd::{Aligned, Float, Isa, Kernel, MAX_LANES, Simd, Strided, StridedMut};
+use swell::sea::simd::{
+    Aligned, Channels, ChannelsMut, Float, Isa, Kernel, MAX_LANES, Simd, Strided, StridedMut,
+};
 use swell::sea::{Sea, SeaMaps, SeaSettings, Spectrum};
 
 /// 0, 1, 2, .. from `first`.
@@ -151,6 +153,15 @@ impl Kernel for Beyond {
             1 => drop(Strided::new(simd, &numbers, 0, S::LANES, 4).load(4)),
             2 => drop(Strided::reaching(simd, &numbers, 0, S::LANES, 3, 1).load_after(0, 2)),
             3 => drop(StridedMut::new(simd, &mut numbers, usize::MAX - 3, 2, 2)),
+            4 => {
+                StridedMut::reaching(simd, &mut numbers, 0, S::LANES, 3, 1).store_after(0, 2, simd.splat(1.0))
+            }
+            5 => drop(Strided::reaching(simd, &numbers, 0, S::LANES, 3, 1).load_halves(0, 0, 2)),
+            6 => drop(Strided::reaching(simd, &numbers, 0, S::LANES, 3, 1).load_halves(0, 1, 1)),
+            7 => drop(Channels::<S, 2>::new(simd, &numbers, 1, S::LANES, 3)),
+            8 => drop(Channels::<S, 2>::new(simd, &numbers, 0, S::LANES, 1).load(0, 2)),
+            9 => drop(ChannelsMut::<S, 2>::new(simd, &mut numbers, 0, usize::MAX, 1)),
+            10 => ChannelsMut::<S, 2>::new(simd, &mut numbers, 0, S::LANES, 1).store(1, 0, simd.splat(1.0)),
             _ => drop(simd.pairs(&[[0.0; 2]; 3], &[3; MAX_LANES])),
         }
     }
@@ -159,7 +170,7 @@ impl Kernel for Beyond {
 #[test]
 fn nothing_is_read_or_written_beyond_a_slice() {
     for isa in Isa::available() {
-        for case in 0..5 {
+        for case in 0..12 {
             let caught = std::panic::catch_unwind(|| isa.run(Beyond(case)));
             assert!(caught.is_err(), "{isa}, case {case}");
         }

@@ -121,7 +121,7 @@ impl<V: Float> Tangents<V> {
 
 /// The upward part of [`Tangents::normal`].
 #[inline(always)]
-pub fn upward<V: Float, const SHEET: bool>(area: V, width: V) -> V {
+pub(super) fn upward<V: Float, const SHEET: bool>(area: V, width: V) -> V {
     if SHEET { width } else { area.abs() }
 }
 
@@ -129,7 +129,8 @@ pub fn upward<V: Float, const SHEET: bool>(area: V, width: V) -> V {
 /// the processor waiting.
 pub const ABREAST: usize = 4;
 
-/// Turns every x of `numbers`, of which there are a multiple of [`ABREAST`] vectors, into 1 / sqrt(x), to 2.5e-7; into a finite number where x is 0.
+/// Turns every x of `numbers`, of which there are a multiple of [`ABREAST`] vectors, into 1 / sqrt(x), to 2.5e-7; into a finite
+/// number where x is 0.
 ///
 /// The seed y from the exponent's bits leaves e = 1 - x y^2 within 0.0682 of 0; the rest is 1 / sqrt(1 - e), whose first two
 /// coefficients are Taylor's, the others of least relative error (Remez): 3e-8.

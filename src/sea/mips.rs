@@ -61,7 +61,7 @@ impl Pyramid {
         let (mut level, mut at) = (1, 0);
         while level < mip_levels(n) {
             pyramid.slots[level] = at;
-            // Two vectors are read of rows that are shorter than one.
+            // Two vectors are read of rows that are shorter than two.
             at += CHANNELS * pyramid.stride(level) + 2 * MAX_LANES;
             level += 1;
         }

@@ -3,9 +3,9 @@
 //! A processor looks some hundred instructions ahead. All that a texel needs is more than that, and much of it waits for
 //! what comes before it: in one loop most of the processor would stand idle. So the work is cut into short passes over a
 //! few texels, whose numbers stay in the first cache in between; the iterations of each overlap.
-use super::{band::Shading, foam::FrameFoam};
 use super::{
-    foam,
+    band::Shading,
+    foam::{self, FrameFoam},
     gradient::{ABREAST, Rows, Tangents, inverse_sqrts, jacobian_byte, smoothness, square, to_byte, upward},
     mips::{CHANNELS, Level1},
     simd::{Float, MAX_LANES, Simd, Strided, StridedMut},

@@ -7,7 +7,7 @@ use super::harness::{Body, Case, Label, Work};
 use super::{BenchError, peak, selection::Selection};
 
 /// Runs of [`peak::chains`] in a call: some 200 microseconds.
-const RUNS: usize = 8;
+const RUNS: usize = 32;
 
 struct Cores;
 

@@ -1,5 +1,5 @@
-//! How many multiplications and additions an instruction set does at most, in vectors of the length that the transforms use:
-//! the roof over them.
+//! How many multiplications and additions an instruction set does at most, in vectors of the length that columns are
+//! transformed on: the roof over them.
 use super::samples::Samples;
 use crate::sea::simd::{Float, Isa, Kernel, Simd};
 use std::hint::black_box;

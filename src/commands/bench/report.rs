@@ -28,9 +28,9 @@ impl Row {
         whole.into_iter().chain(parts).collect()
     }
 
-    /// Nanoseconds for each point.
-    pub fn per_point(&self) -> f64 {
-        1e3 * self.time.median / self.work.points
+    /// Nanoseconds for each point, where there are any.
+    pub fn per_point(&self) -> Option<f64> {
+        (self.work.points > 0.0).then(|| 1e3 * self.time.median / self.work.points)
     }
 
     /// Gigabytes a second that it moves at least.
@@ -78,9 +78,10 @@ impl Report {
         Self { machine, rows: all }
     }
 
-    /// The row's median over that of FFTW's cheapest way to the three fields of the same size.
+    /// The row's median over that of FFTW's cheapest way to the three fields of the same size, if it is about points.
     pub fn ratio(&self, row: &Row) -> Option<f64> {
         let rival = |other: &&Row| other.label.name == CHEAPEST && other.label.n == row.label.n;
+        row.per_point()?;
         Some(row.time.median / self.rows.iter().find(rival)?.time.median)
     }
 

@@ -47,7 +47,7 @@ fn cells(report: &Report, row: &Row) -> [String; 14] {
         time(row.time.min),
         time(row.time.max),
         format!("{:.1} %", row.time.spread),
-        format!("{:.3}", row.per_point()),
+        optional(row.per_point(), 3),
         optional(row.bandwidth(), 1),
         optional(row.speed(), 1),
         optional(report.ratio(row), 3),

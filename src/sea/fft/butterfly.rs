@@ -198,6 +198,7 @@ fn four_turned<S: Simd, const K: usize>(simd: S, [a, b, c, d]: [Complex<S::F32>;
 /// 4 x 4.
 #[inline(always)]
 fn sixteen<S: Simd>(simd: S, points: &mut impl Points<S>) {
+    // Without the fences, which cost the processor nothing, the compiler reads all at once and spills half of it.
     let a = four(read_all(points, 0, 4));
     compiler_fence(SeqCst);
     let b = four(read_all(points, 1, 4));

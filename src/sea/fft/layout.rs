@@ -4,13 +4,15 @@
 //! The spectra of three real fields are kept for ku = 0..N/2 alone (the other half is their conjugate mirror), in tiles of
 //! neighbouring ku. A tile holds N rows kv; a row is the real parts of its
 //! ku, then the imaginary parts. After every `R2` rows one is left out, since N = R1 x R2: transforms along a column walk in
-//! steps of `R2` rows, and steps of a power of two would fall on the same few sets of the cache.
+//! steps of `R2` rows, and steps of a power of two would fall on the same few sets of the cache. So is one after each tile: the
+//! pass along rows walks from tile to tile.
 //!
 //! # Order
 //! Columns are transformed in place: what comes out of row `R2 p + q` of the tile is row `p + R1 q` of the field. Nobody sorts
 //! it; the pass along rows fetches each row from where it is.
 
-/// Values of ku in a tile: a multiple of the lanes of the vectors that transforms run on, see [`crate::sea::simd::Simd::wide`].
+/// Values of ku in a tile: a multiple of the lanes of the vectors that columns are transformed on. A longer vector, see
+/// [`crate::sea::simd::Simd::wide`], spans tiles.
 pub const TILE: usize = 8;
 
 /// Numbers in a row of a tile.

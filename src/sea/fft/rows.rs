@@ -156,7 +156,7 @@ fn transform_unit<S: Simd, const R1: usize, const R2: usize, const M: usize>(
     }
 }
 
-/// The spectrum of a + i b along ku from the halves ku >= 0 of the Hermitian a and b, of which every `BLOCK`th vector from
+/// The spectrum of a + i b along ku from the halves ku >= 0 of the Hermitian a and b, of which every [`Self::PARTS`]th vector from
 /// a certain one on is seen: what a first transform reads.
 struct Pair<'a, S: Simd, const M: usize> {
     part: usize,
@@ -278,7 +278,7 @@ impl<S: Simd, const M: usize> Points<S> for First<'_, S, M> {
     }
 }
 
-/// The first transforms of the row whose fields a and b begin at `at`
+/// The first transforms of the row whose fields a and b begin at `at`.
 #[inline(always)]
 fn first<S: Simd, const M: usize>(
     simd: S,

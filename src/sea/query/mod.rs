@@ -8,7 +8,6 @@ use super::{
     foam::foam,
     maps::SeaMaps,
     settings::{FoamSettings, MAX_CASCADES},
-    simd::{Isa, Kernel, Simd},
 };
 use grid::Grid;
 use newton::{LANES, Newton};
@@ -117,14 +116,11 @@ impl<'a> Query<'a> {
     /// # Panics
     /// When `points` and `surfaces` differ in length.
     pub fn above_many(&self, points: &[[f64; 2]], surfaces: &mut [Surface]) {
-        assert_eq!(points.len(), surfaces.len(), "one answer for each point");
-        let mut newton = Newton::<LANES>::new(self);
-        for (points, surfaces) in points.chunks(LANES).zip(surfaces.chunks_mut(LANES)) {
-            newton.solve(&targets(points));
-            for (lane, (surface, &target)) in surfaces.iter_mut().zip(points).enumerate() {
-                *surface = self.found(&newton, lane, target);
+        self.in_lanes(points, surfaces, |newton, targets, surfaces| {
+            for (lane, (surface, &target)) in surfaces.iter_mut().zip(targets).enumerate() {
+                *surface = self.found(newton, lane, target);
             }
-        }
+        });
     }
 
     /// Heights alone of [`Self::above`] for each of `points`, metres, to the last few bits of a double: the least that
@@ -133,8 +129,14 @@ impl<'a> Query<'a> {
     /// # Panics
     /// When `points` and `heights` differ in length.
     pub fn heights(&self, points: &[[f64; 2]], heights: &mut [f64]) {
-        assert_eq!(points.len(), heights.len(), "one answer for each point");
-        Isa::best().run(Heights { query: self, points, heights });
+        self.in_lanes(points, heights, |newton, targets, heights| {
+            for (height, solved) in heights.iter_mut().zip(newton.heights()) {
+                *height = solved;
+            }
+            if (0..LANES).any(|lane| !newton.found(lane)) {
+                self.search_heights(newton, targets, heights);
+            }
+        });
     }
 
     #[cold]
@@ -144,6 +146,27 @@ impl<'a> Query<'a> {
                 let (q, _) = search(self, target, newton.iterations(lane));
                 *height = Sample::at(self, q).value.displacement[1];
             }
+        }
+    }
+
+    /// Solves [`LANES`] points at a time and has `take` fill their answers.
+    #[inline(always)]
+    fn in_lanes<T>(
+        &self,
+        points: &[[f64; 2]],
+        answers: &mut [T],
+        mut take: impl FnMut(&Newton<'_, 'a, LANES>, &[[f64; 2]], &mut [T]),
+    ) {
+        assert_eq!(points.len(), answers.len(), "one answer for each point");
+        let mut newton = Newton::new(self);
+        for (points, answers) in points.chunks(LANES).zip(answers.chunks_mut(LANES)) {
+            let mut targets = [[0.0; LANES]; 2];
+            for lane in 0..LANES {
+                // Idle lanes ask what the last one does.
+                [targets[0][lane], targets[1][lane]] = points[lane.min(points.len() - 1)];
+            }
+            newton.solve(&targets);
+            take(&newton, points, answers);
         }
     }
 
@@ -173,54 +196,16 @@ impl<'a> Query<'a> {
         }
     }
 
-    #[inline(always)]
     fn grids(&self) -> &[Grid<'a>] {
         &self.grids[..self.count]
     }
 
-    #[inline(always)]
     fn first(&self) -> &Grid<'a> {
         &self.grids[0]
     }
 
     /// The cascades after the first, and how they lie to it.
-    #[inline(always)]
     fn others(&self) -> impl Iterator<Item = (&Grid<'a>, &Frame)> {
         self.grids().iter().zip(&self.frames).skip(1)
     }
-}
-
-/// [`Query::heights`]: plain code, compiled for every instruction set. None fuses what is not written so: the bits are the
-/// same.
-struct Heights<'q, 'a> {
-    query: &'q Query<'a>,
-    points: &'q [[f64; 2]],
-    heights: &'q mut [f64],
-}
-
-impl Kernel for Heights<'_, '_> {
-    type Output = ();
-
-    #[inline(always)]
-    fn run<S: Simd>(self, _: S) {
-        let mut newton = Newton::<LANES>::new(self.query);
-        for (points, heights) in self.points.chunks(LANES).zip(self.heights.chunks_mut(LANES)) {
-            newton.solve(&targets(points));
-            let solved = newton.heights();
-            heights.copy_from_slice(&solved[..heights.len()]);
-            if !newton.all_found() {
-                self.query.search_heights(&newton, points, heights);
-            }
-        }
-    }
-}
-
-/// Up to [`LANES`] points, in lanes; idle ones ask what the last one does.
-#[inline(always)]
-fn targets(points: &[[f64; 2]]) -> [[f64; LANES]; 2] {
-    let mut targets = [[0.0; LANES]; 2];
-    for lane in 0..LANES {
-        [targets[0][lane], targets[1][lane]] = points[lane.min(points.len() - 1)];
-    }
-    targets
 }

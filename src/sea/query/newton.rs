@@ -173,16 +173,6 @@ impl<'q, 'a, const L: usize> Newton<'q, 'a, L> {
         self.miss[lane] <= TOLERANCE * TOLERANCE
     }
 
-    /// Whether all have.
-    #[inline(always)]
-    pub fn all_found(&self) -> bool {
-        let mut worst = 0.0_f64;
-        for l in 0..L {
-            worst = if self.miss[l] <= TOLERANCE * TOLERANCE { worst } else { 1.0 };
-        }
-        worst == 0.0
-    }
-
     /// Looks a lane has taken.
     pub fn iterations(&self, lane: usize) -> u32 {
         1 + self.steps[lane] as u32

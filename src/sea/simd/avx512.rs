@@ -1,6 +1,6 @@
 //! Eight lanes again, with what AVX-512 adds to short vectors: twice as many registers (Skylake-X, Zen 4 and later).
 //!
-//! Sixteen lanes were tried and are slower where the processor halves 512-bit arithmetic, see `docs/performance.md`. The
+//! Sixteen lanes were tried in columns and short rows, and are slower where the processor halves 512-bit arithmetic, see `docs/performance.md`. The
 //! operations are AVX2's; compiled here, they have 32 registers.
 use super::{Kernel, Simd, avx2::F32x8, avx512_wide::Avx512Wide, x86};
 

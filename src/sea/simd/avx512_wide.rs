@@ -1,4 +1,4 @@
-//! Sixteen lanes of AVX-512, for long straight work on every texel: half as many instructions.
+//! Sixteen lanes of AVX-512, for rows of 256 and more and for long straight work on every texel: half as many instructions.
 use super::{Float, Kernel, SEED, Simd, avx512::Avx512, x86};
 use half::f16;
 use std::arch::x86_64::*;

@@ -76,9 +76,10 @@ pub trait Simd: Copy + Send + Sync + 'static {
     #[inline(always)]
     unsafe fn read_halves(self, low: *const f32, high: *const f32) -> Self::F32 {
         let mut lanes = [0.0; MAX_LANES];
-        for lane in 0..Self::LANES / 2 {
+        let half = <Self::F32 as Float>::LANES / 2;
+        for lane in 0..half {
             // SAFETY: the caller vouches for the pointers.
-            (lanes[lane], lanes[lane + Self::LANES / 2]) = unsafe { (*low.add(lane), *high.add(lane)) };
+            (lanes[lane], lanes[lane + half]) = unsafe { (*low.add(lane), *high.add(lane)) };
         }
         self.load(&lanes)
     }

@@ -60,9 +60,7 @@ impl<'a, S: Simd> Strided<'a, S> {
         // SAFETY: every vector up to `count`, and what it reaches, was checked to be within the slice.
         unsafe { self.simd.read(self.first.add(index * self.stride + offset)) }
     }
-}
 
-impl<S: Simd> Strided<'_, S> {
     /// As [`Strided::load_after`], but the upper half of the lanes begins `apart` numbers after the lower half; 0 for a
     /// vector that is in one piece.
     ///
