@@ -19,6 +19,7 @@
 //! `sea`, `lod`, `raft` and `scene` know nothing of Vulkan or windows.
 #![warn(missing_docs)]
 
+#[cfg(not(target_os = "android"))]
 pub mod commands;
 pub mod draw;
 pub mod gpu;

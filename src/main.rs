@@ -1,4 +1,4 @@
-//! The command line of Swell.
+//! The command line of Swell. Android has none: `android/app` is what begins there.
 
 mod cli;
 

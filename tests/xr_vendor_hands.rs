@@ -150,7 +150,7 @@ fn foveation_profiles_arrive() {
 #[test]
 #[ignore = "runs in a process of its own"]
 fn profiles() {
-    let runtime = Runtime::new(Validation::On).unwrap();
+    let runtime = Runtime::new(swell::xr::Platform, Validation::On).unwrap();
     let instance = Instance::new(Validation::On, &[], &*runtime).unwrap();
     let physical = runtime.choose(&instance, None).unwrap();
     let needs = DeviceNeeds { foveation: true, opener: &*runtime, ..DeviceNeeds::default() };

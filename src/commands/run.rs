@@ -8,7 +8,7 @@ use crate::host::{
 };
 use crate::output::{OutputError, atomic::write_whole};
 use crate::scene::Scene;
-use crate::xr::{self, vendor::FoveationLevel};
+use crate::xr::{self, Platform, vendor::FoveationLevel};
 use std::fs::File;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -149,6 +149,7 @@ fn in_headset(
         stop: Arc::clone(stop),
     })?;
     let settings = HeadsetSettings {
+        platform: Platform,
         look: Look::Water,
         validation: if options.validate { Validation::On } else { Validation::Off },
         threads: options.threads,
@@ -158,7 +159,10 @@ fn in_headset(
         scale: xr.scale,
         refresh_rate: xr.refresh_rate,
         foveation: FoveationLevel::default(),
+        sustained: true,
+        thread_hints: true,
         space_warp: xr.space_warp,
+        fallback: None,
     };
     let shown = headset(scene, &settings, &mut companion);
     // The files are ended whatever happened.

@@ -28,6 +28,11 @@ pub struct Layer {
 /// Meshes and pipelines of the sea's surface.
 pub struct Ocean {
     layers: Vec<[Pipeline; 2]>,
+    meshes: Meshes,
+}
+
+/// Grid and skirt.
+struct Meshes {
     vertices: Buffer,
     indices: Buffer,
     /// Where each pattern's indices are in `indices`.
@@ -51,44 +56,22 @@ impl Ocean {
         cascades: usize,
         layers: &[Layer],
     ) -> Result<Self, GpuError> {
-        let cells = settings.quality.preset().cells;
-        let grid = lod::grid::vertices(cells);
-        let vertices =
-            upload_buffer(device, "grid", bytemuck::cast_slice(&grid), vk::BufferUsageFlags::VERTEX_BUFFER)?;
-        let (mut all, mut patterns, mut pattern_vertices) = (Vec::<u16>::new(), Vec::new(), Vec::new());
-        for pattern in Pattern::all() {
-            let start = all.len() as u32;
-            all.extend(lod::grid::indices(cells, pattern));
-            patterns.push(start..all.len() as u32);
-            let used: BTreeSet<u16> = all[start as usize..].iter().copied().collect();
-            pattern_vertices.push(used.len() as u32);
-        }
-        let indices = upload_buffer(
-            device,
-            "patterns",
-            bytemuck::cast_slice(&all),
-            vk::BufferUsageFlags::INDEX_BUFFER,
-        )?;
-        let (skirt, skirt_indices) = lod::skirt(settings.size, settings.skirt_extent);
-        let skirt_vertices = upload_buffer(
-            device,
-            "skirt",
-            bytemuck::cast_slice(&skirt),
-            vk::BufferUsageFlags::VERTEX_BUFFER,
-        )?;
-        let skirt_indices = upload_buffer(
-            device,
-            "skirt indices",
-            bytemuck::cast_slice(&skirt_indices),
-            vk::BufferUsageFlags::INDEX_BUFFER,
-        )?;
         let vertex = [
             (shaders::OCEAN_VERTEX_MAIN[cascades - 1], c"vertex_main"),
             (shaders::SKIRT_VERTEX_MAIN, c"vertex_main"),
         ];
         let make = |layer| surface(device, target, bindings, vertex, layer);
         let layers = layers.iter().map(make).collect::<Result<_, GpuError>>()?;
-        Ok(Self { layers, vertices, indices, patterns, pattern_vertices, skirt_vertices, skirt_indices })
+        Ok(Self { layers, meshes: Meshes::new(device, settings)? })
+    }
+
+    /// Other meshes, between frames that have ended.
+    ///
+    /// # Errors
+    /// Out of memory.
+    pub fn set_meshes(&mut self, device: &Arc<Device>, settings: &lod::LodSettings) -> Result<(), GpuError> {
+        self.meshes = Meshes::new(device, settings)?;
+        Ok(())
     }
 
     /// Copies the instances of `selection` to the ring and returns their offset.
@@ -127,20 +110,21 @@ impl Ocean {
         commands.begin_label(c"sea");
         let mut counts = DrawCounts::default();
         patches.bind(commands);
-        commands.vertex_buffer(0, self.vertices.raw, 0);
+        commands.vertex_buffer(0, self.meshes.vertices.raw, 0);
         commands.vertex_buffer(1, instances.0.buffer(), instances.1);
-        commands.index_buffer(&self.indices);
+        commands.index_buffer(&self.meshes.indices);
         for batch in selection.batches() {
             bindings.push(commands, u32::from(batch.pattern.bits()));
-            let indices = self.patterns[batch.pattern.index()].clone();
+            let indices = self.meshes.patterns[batch.pattern.index()].clone();
             let (triangles, patches) = (indices.len() as u32 / 3, batch.instances.len() as u32);
             commands.draw_indexed(indices, batch.instances);
-            counts += DrawCounts::draw(triangles, self.pattern_vertices[batch.pattern.index()], patches);
+            counts +=
+                DrawCounts::draw(triangles, self.meshes.pattern_vertices[batch.pattern.index()], patches);
             counts.patches += patches;
         }
         skirt.bind(commands);
-        commands.vertex_buffer(0, self.skirt_vertices.raw, 0);
-        commands.index_buffer(&self.skirt_indices);
+        commands.vertex_buffer(0, self.meshes.skirt_vertices.raw, 0);
+        commands.index_buffer(&self.meshes.skirt_indices);
         commands.draw_indexed(0..lod::skirt::SKIRT_INDICES as u32, 0..1);
         let skirt = [lod::skirt::SKIRT_INDICES / 3, lod::skirt::SKIRT_VERTICES].map(|n| n as u32);
         counts += DrawCounts::draw(skirt[0], skirt[1], 1);
@@ -151,6 +135,43 @@ impl Ocean {
     /// Bytes of instances that a frame may need.
     pub const fn instance_bytes(most_patches: usize) -> u64 {
         (most_patches * size_of::<lod::Instance>()) as u64 + 16
+    }
+}
+
+impl Meshes {
+    fn new(device: &Arc<Device>, settings: &lod::LodSettings) -> Result<Self, GpuError> {
+        let cells = settings.quality.preset().cells;
+        let grid = lod::grid::vertices(cells);
+        let vertices =
+            upload_buffer(device, "grid", bytemuck::cast_slice(&grid), vk::BufferUsageFlags::VERTEX_BUFFER)?;
+        let (mut all, mut patterns, mut pattern_vertices) = (Vec::<u16>::new(), Vec::new(), Vec::new());
+        for pattern in Pattern::all() {
+            let start = all.len() as u32;
+            all.extend(lod::grid::indices(cells, pattern));
+            patterns.push(start..all.len() as u32);
+            let used: BTreeSet<u16> = all[start as usize..].iter().copied().collect();
+            pattern_vertices.push(used.len() as u32);
+        }
+        let indices = upload_buffer(
+            device,
+            "patterns",
+            bytemuck::cast_slice(&all),
+            vk::BufferUsageFlags::INDEX_BUFFER,
+        )?;
+        let (skirt, skirt_indices) = lod::skirt(settings.size, settings.skirt_extent);
+        let skirt_vertices = upload_buffer(
+            device,
+            "skirt",
+            bytemuck::cast_slice(&skirt),
+            vk::BufferUsageFlags::VERTEX_BUFFER,
+        )?;
+        let skirt_indices = upload_buffer(
+            device,
+            "skirt indices",
+            bytemuck::cast_slice(&skirt_indices),
+            vk::BufferUsageFlags::INDEX_BUFFER,
+        )?;
+        Ok(Self { vertices, indices, patterns, pattern_vertices, skirt_vertices, skirt_indices })
     }
 }
 

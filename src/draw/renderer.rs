@@ -20,7 +20,7 @@ use crate::gpu::{
     Bindings, Device, FRAMES_IN_FLIGHT, GpuError, Image, ImageInfo, Recorder, Resource, Sampler, Target,
     Turn, UploadRing, upload_image,
 };
-use crate::lod::{Frustum, Quadtree, vertex_spacing};
+use crate::lod::{Frustum, LodSettings, Quadtree, Quality, vertex_spacing};
 use crate::scene::Scene;
 use ash::vk;
 use glam::DVec3;
@@ -76,12 +76,7 @@ impl Renderer {
     ) -> Result<Self, DrawError> {
         let cascades = scene.sea.cascades.len();
         let tree = Quadtree::new(&scene.lod)?;
-        let cells = tree.preset().cells;
-        let spacing = Spacing {
-            per_metre: vertex_spacing(1.0, tree.preset(), 0.0, f64::INFINITY),
-            finest: tree.finest_spacing(),
-            coarsest: tree.coarsest_spacing(),
-        };
+        let (cells, spacing) = (tree.preset().cells, spacing(&tree));
         let still = Frame::still(scene, sky_map, scene.sea.expected_rms_height(), cells, spacing);
         let limits = &device.physical.limits;
         let uniform_align = limits.min_uniform_buffer_offset_alignment.max(16);
@@ -253,9 +248,37 @@ impl Renderer {
         self.hidden_area.set(device, meshes)
     }
 
+    /// Draws `scene`, which is the one it was made for, with another preset of the quadtree from the next frame on. Call it
+    /// between frames that have ended.
+    ///
+    /// # Errors
+    /// Out of memory.
+    pub fn set_quality(
+        &mut self,
+        device: &Arc<Device>,
+        scene: &Scene,
+        quality: Quality,
+    ) -> Result<(), DrawError> {
+        let settings = LodSettings { quality, ..scene.lod };
+        let tree = Quadtree::new(&settings)?;
+        self.ocean.set_meshes(device, &settings)?;
+        self.still.set_lod(scene, tree.preset().cells, spacing(&tree));
+        (self.tree, self.latest) = (tree, None);
+        Ok(())
+    }
+
     /// Bytes uploaded by the latest frame.
     pub const fn uploaded(&self) -> u64 {
         self.ring.used()
+    }
+}
+
+/// How far apart the vertices of `tree` are.
+fn spacing(tree: &Quadtree) -> Spacing {
+    Spacing {
+        per_metre: vertex_spacing(1.0, tree.preset(), 0.0, f64::INFINITY),
+        finest: tree.finest_spacing(),
+        coarsest: tree.coarsest_spacing(),
     }
 }
 

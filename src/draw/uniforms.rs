@@ -79,7 +79,7 @@ impl Frame {
         // The disc's radiance is far beyond white: limited, so that resolving samples leaves its edge round.
         let disc = (1.0 / (std::f32::consts::PI * SUN_RADIUS * SUN_RADIUS)).min(60.0);
         let texels_per_radian = sky_map::FACE as f32 / std::f32::consts::FRAC_PI_2;
-        Self {
+        let mut still = Self {
             sun: sky.sun.extend(SUN_RADIUS.cos()),
             sun_light: sky.sun_light.extend(disc),
             sky_light: sky.sky_light.extend(repeated as f32),
@@ -93,21 +93,25 @@ impl Frame {
                     as f32,
                 (0.25 / height) as f32,
             ),
-            lod: Vec4::new(
-                cells as f32,
-                scene.lod.size as f32,
-                spacing.per_metre as f32,
-                spacing.finest as f32,
-            ),
             air: Vec4::new(
                 (VISIBILITY / scene.sky.visibility) as f32,
                 (EXPOSURE * scene.sky.exposure.exp2()) as f32,
                 // A lobe of roughness alpha spreads over sqrt(2) alpha radians: the mip whose texels are that wide.
                 (std::f32::consts::SQRT_2 * texels_per_radian).log2(),
-                spacing.coarsest as f32,
+                0.0,
             ),
             ..Self::default()
-        }
+        };
+        still.set_lod(scene, cells, spacing);
+        still
+    }
+
+    /// Tells of patches with `cells` along a side.
+    #[expect(clippy::cast_possible_truncation, reason = "scene values, far inside f32")]
+    pub fn set_lod(&mut self, scene: &Scene, cells: u32, spacing: Spacing) {
+        let Spacing { per_metre, finest, coarsest } = spacing;
+        self.lod = Vec4::new(cells as f32, scene.lod.size as f32, per_metre as f32, finest as f32);
+        self.air.w = coarsest as f32;
     }
 
     /// Tells where `eyes` were in the frame before.

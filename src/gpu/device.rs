@@ -56,6 +56,12 @@ impl Default for DeviceNeeds<'_> {
 }
 
 impl Device {
+    /// Writes the pipelines compiled so far to their file, for the next run, where the process may end without another word.
+    pub fn keep_pipelines(&self) {
+        // SAFETY: the cache was made on this device.
+        unsafe { self.cache.keep(&self.raw) };
+    }
+
     /// Opens `physical` with what `needs` asks for.
     ///
     /// # Errors

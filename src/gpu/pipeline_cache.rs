@@ -8,12 +8,14 @@ use super::physical::PhysicalDevice;
 use ash::vk;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Vulkan's pipeline cache and the file behind it.
 pub(super) struct PipelineCache {
     pub(super) raw: vk::PipelineCache,
     file: Option<PathBuf>,
-    loaded: usize,
+    /// Bytes that the file holds.
+    stored: AtomicUsize,
 }
 
 impl PipelineCache {
@@ -35,7 +37,21 @@ impl PipelineCache {
         // SAFETY: the device lives and the data is what a driver once gave; drivers reject what is not theirs.
         let raw =
             unsafe { device.create_pipeline_cache(&info, None) }.doing("creating the pipeline cache")?;
-        Ok(Self { raw, file, loaded: data.len() })
+        Ok(Self { raw, file, stored: AtomicUsize::new(data.len()) })
+    }
+
+    /// Writes what was compiled since it was last written.
+    ///
+    /// # Safety
+    /// `device` is the one it was made on.
+    pub(super) unsafe fn keep(&self, device: &ash::Device) {
+        let Some(file) = &self.file else { return };
+        // SAFETY: the caller's promise.
+        let Ok(data) = (unsafe { device.get_pipeline_cache_data(self.raw) }) else { return };
+        // Losing the cache costs a compilation next time and nothing else.
+        if data.len() != self.stored.load(Ordering::Relaxed) && store(file, &data).is_ok() {
+            self.stored.store(data.len(), Ordering::Relaxed);
+        }
     }
 
     /// Writes what was compiled since, then destroys the cache.
@@ -44,13 +60,7 @@ impl PipelineCache {
     /// `device` is the one it was made on, and the cache is not used afterwards.
     pub(super) unsafe fn close(&self, device: &ash::Device) {
         // SAFETY: the caller's promise.
-        let data = unsafe { device.get_pipeline_cache_data(self.raw) };
-        if let (Some(file), Ok(data)) = (&self.file, data)
-            && data.len() != self.loaded
-        {
-            // Losing the cache costs a compilation next time and nothing else.
-            let _lost = store(file, &data);
-        }
+        unsafe { self.keep(device) };
         // SAFETY: the caller's promise.
         unsafe { device.destroy_pipeline_cache(self.raw, None) };
     }

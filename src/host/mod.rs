@@ -1,18 +1,25 @@
 //! Whoever decides when a frame is drawn, from where and into what.
 
 mod afloat;
+#[cfg(target_os = "android")]
+pub mod android;
+#[cfg(not(target_os = "android"))]
 mod companion;
 mod cpu;
+pub mod fallback;
 mod frame_log;
 mod headless;
 mod headset;
 mod mirror;
 mod painter;
 mod screenshots;
+pub mod standalone;
 pub mod view;
+#[cfg(not(target_os = "android"))]
 mod window;
 
 pub use afloat::marker;
+#[cfg(not(target_os = "android"))]
 pub use companion::{Companion, CompanionSettings};
 pub use cpu::cpu_time;
 pub use frame_log::{FrameLog, FrameRecord};
@@ -20,6 +27,7 @@ pub use headless::{Finished, Headless, HeadlessSettings};
 pub use headset::{Drawn, Guest, HeadsetFrame, HeadsetReport, HeadsetSettings, headset};
 pub use mirror::Mirror;
 pub use screenshots::{Screenshots, read_back};
+#[cfg(not(target_os = "android"))]
 pub use window::{DesktopWindow, Ending, Key, WindowHost, WindowSettings};
 
 use crate::draw::{DrawError, SkyError};

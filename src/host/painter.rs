@@ -4,6 +4,7 @@ use super::HostError;
 use crate::draw::{DrawCounts, HiddenMesh, Look, Moment, Renderer, SkyMap};
 use crate::gpu::{Commands, Device, FRAMES_IN_FLIGHT, GpuError, Recorder, Target, Turn};
 use crate::jobs::Workers;
+use crate::lod::Quality;
 use crate::scene::Scene;
 use crate::sea::{Sea, SeaAhead};
 use std::sync::Arc;
@@ -106,6 +107,15 @@ impl Painter {
     pub fn prepare_motion(&mut self, target: &Target) -> Result<(), HostError> {
         self.wait_all()?;
         Ok(self.renderer.prepare_motion(&self.device, target)?)
+    }
+
+    /// Draws with another preset of the quadtree from the next frame on.
+    ///
+    /// # Errors
+    /// As [`Renderer::set_quality`], or the device was lost.
+    pub fn set_quality(&mut self, scene: &Scene, quality: Quality) -> Result<(), HostError> {
+        self.wait_all()?;
+        Ok(self.renderer.set_quality(&self.device, scene, quality)?)
     }
 
     /// The device drawn on.

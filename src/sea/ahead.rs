@@ -12,6 +12,9 @@ use std::{
 /// One worker of the pool drives the steps and takes part in them; it sleeps in between. Buffers change hands by move,
 /// so that a frame allocates nothing, and without a lock. The pool is given away for that reason: other work would wait
 /// for ever on a pool of one thread.
+///
+/// Where [cascades take turns](Self::take_turns), those beyond the first are stepped in every second frame only, and what a
+/// frame does not step it takes over from the one before: maps change places, nothing is copied.
 #[derive(Debug)]
 pub struct SeaAhead {
     asked: Giver<Asked>,
@@ -20,15 +23,25 @@ pub struct SeaAhead {
     front: Option<SeaMaps>,
     /// Maps that no step uses: the second buffer, until the first step begins.
     spare: Option<SeaMaps>,
-    /// Time of the step that is on its way.
-    pending: Option<f64>,
+    /// The step that is on its way: its time and its cascades.
+    pending: Option<(f64, Cascades)>,
+    /// Whether cascades take turns.
+    in_turns: bool,
+    /// Cascades can be taken over from the front maps: they are those of a frame.
+    whole: bool,
+    /// Counts steps, for turns.
+    steps: u32,
     /// How long the step took whose maps were handed out last.
     took: Duration,
     workers: Workers,
 }
 
-/// A step to make: its time and what it fills.
-type Asked = (f64, SeaMaps);
+/// Cascades of a step, a bit for each.
+type Cascades = u32;
+/// All of them.
+const ALL: Cascades = Cascades::MAX;
+/// A step to make: its time, its cascades and what it fills.
+type Asked = (f64, Cascades, SeaMaps);
 /// What became of it: how long it took, and what it was to fill.
 type Finished = (Result<Duration, SeaError>, SeaMaps);
 
@@ -39,7 +52,13 @@ impl SeaAhead {
         let (made, finished) = handover(1);
         let (front, spare) = (Some(sea.new_maps()), Some(sea.new_maps()));
         workers.spawn(move || drive(sea, to_make, made));
-        Self { asked, finished, front, spare, pending: None, took: Duration::ZERO, workers }
+        let (pending, in_turns, whole, steps) = (None, false, false, 0);
+        Self { asked, finished, front, spare, pending, in_turns, whole, steps, took: Duration::ZERO, workers }
+    }
+
+    /// From the next step that begins: whether cascades beyond the first are stepped in turns, each in every second frame.
+    pub const fn take_turns(&mut self, in_turns: bool) {
+        self.in_turns = in_turns;
     }
 
     /// Begins the step to `time`, unless it is already on its way. One to another time, which somebody began and then
@@ -48,19 +67,23 @@ impl SeaAhead {
     /// # Errors
     /// [`SeaError::Gone`] when the driver has ended.
     pub fn begin(&mut self, time: f64) -> Result<(), SeaError> {
-        if let Some(begun) = self.pending {
+        if let Some((begun, _)) = self.pending {
             if begun == time {
                 return Ok(());
             }
             // What became of it is nobody's business any more.
             let _dropped = self.next(None);
+            // It was for another time: nothing is to be taken over from it.
+            self.whole = false;
         }
         let maps = self.spare.take().or_else(|| self.front.take()).ok_or(SeaError::Gone)?;
-        self.asked.give((time, maps)).map_err(|(_, maps)| {
+        self.steps = self.steps.wrapping_add(1);
+        let cascades = if self.in_turns && self.whole { turn(self.steps) } else { ALL };
+        self.asked.give((time, cascades, maps)).map_err(|(_, _, maps)| {
             self.spare = Some(maps);
             SeaError::Gone
         })?;
-        self.pending = Some(time);
+        self.pending = Some((time, cascades));
         Ok(())
     }
 
@@ -71,19 +94,26 @@ impl SeaAhead {
     /// [`SeaError::NotBegun`] when no step is on its way; those of [`Sea::step`]; [`SeaError::Panicked`] when a job
     /// panicked. After an error the next `begin` starts afresh.
     pub fn next(&mut self, following: Option<f64>) -> Result<&SeaMaps, SeaError> {
-        if self.pending.is_none() {
-            return Err(SeaError::NotBegun);
-        }
+        let Some((_, cascades)) = self.pending else { return Err(SeaError::NotBegun) };
         let finished = self.finished.take();
         self.pending = None;
-        let (result, maps) = finished.ok_or(SeaError::Gone)?;
+        let (result, mut maps) = finished.ok_or(SeaError::Gone)?;
         match result {
             Ok(took) => self.took = took,
             Err(error) => {
-                self.spare = Some(maps);
+                // What it has left half written is filled anew, all of it.
+                (self.spare, self.whole) = (Some(maps), false);
                 return Err(error);
             }
         }
+        if let Some(front) = &mut self.front {
+            for (index, (new, old)) in maps.cascades.iter_mut().zip(&mut front.cascades).enumerate() {
+                if cascades & (1 << index) == 0 {
+                    std::mem::swap(new, old);
+                }
+            }
+        }
+        self.whole = true;
         self.spare = self.front.replace(maps);
         if let Some(time) = following {
             self.begin(time)?;
@@ -104,9 +134,10 @@ impl SeaAhead {
 
 /// Makes the steps asked for, until the owner has gone.
 fn drive(mut sea: Sea, mut asked: Taker<Asked>, mut finished: Giver<Finished>) {
-    while let Some((time, mut maps)) = asked.take() {
+    while let Some((time, cascades, mut maps)) = asked.take() {
         let began = Instant::now();
-        let result = catch_unwind(AssertUnwindSafe(|| sea.step(time, &mut maps))).unwrap_or_else(|panic| {
+        let step = AssertUnwindSafe(|| sea.step_some(time, cascades, &mut maps));
+        let result = catch_unwind(step).unwrap_or_else(|panic| {
             sea.forget();
             Err(SeaError::Panicked { time, message: words(&*panic) })
         });
@@ -114,6 +145,11 @@ fn drive(mut sea: Sea, mut asked: Taker<Asked>, mut finished: Giver<Finished>) {
             return;
         }
     }
+}
+
+/// Cascades of the step of this number: the first, and every other one of the others. None waits twice in a row.
+const fn turn(step: u32) -> Cascades {
+    1 | if step.is_multiple_of(2) { 0x5555_5555 } else { 0xaaaa_aaaa }
 }
 
 /// What a panic said.
@@ -125,7 +161,52 @@ fn words(panic: &(dyn Any + Send)) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sea::{SeaSettings, foam::Fading};
+    use crate::sea::{CascadeSettings, SeaSettings, foam::Fading};
+
+    #[test]
+    fn in_turns_each_cascade_is_at_most_a_frame_old_and_the_first_is_never() {
+        let cascade = |patch_size, band| CascadeSettings {
+            resolution: 16,
+            patch_size,
+            band,
+            ..CascadeSettings::default()
+        };
+        let cascades =
+            vec![cascade(200.0, [0.0, 0.1]), cascade(60.0, [0.1, 0.5]), cascade(10.0, [0.5, f64::INFINITY])];
+        let settings = SeaSettings { cascades, ..SeaSettings::default() };
+        let mut plain = Sea::new(&settings).unwrap();
+        let mut maps_at = |time| {
+            let mut maps = plain.new_maps();
+            plain.step(time, &mut maps).unwrap();
+            maps
+        };
+        let mut ahead = SeaAhead::new(Sea::new(&settings).unwrap(), Workers::new(1).unwrap());
+        ahead.take_turns(true);
+        let mut waited = 2;
+        let times: Vec<f64> = (0..8).map(|frame| f64::from(frame) * 0.1).collect();
+        ahead.begin(times[0]).unwrap();
+        for (frame, &time) in times.iter().enumerate() {
+            // In the fourth frame the next one is expected at another time than it comes.
+            let next = times.get(frame + 1).map(|next| if frame == 4 { 17.0 } else { *next });
+            ahead.begin(time).unwrap();
+            let maps = ahead.next(next).unwrap();
+            let now = maps_at(time);
+            let old: Vec<_> = (0..3).filter(|&i| maps.cascades[i] != now.cascades[i]).collect();
+            match frame {
+                0 | 5 => assert_eq!(old, [0_usize; 0], "frame {frame}: there is nothing to take over"),
+                _ => {
+                    let [waits] = old[..] else { panic!("frame {frame}: {old:?} are old") };
+                    assert_eq!(waits, if waited == 1 { 2 } else { 1 }, "frame {frame}: in turns");
+                    let before = maps_at(times[frame - 1]);
+                    assert!(maps.cascades[waits] == before.cascades[waits], "frame {frame}: one frame old");
+                    waited = waits;
+                }
+            }
+        }
+        ahead.take_turns(false);
+        ahead.begin(2.0).unwrap();
+        assert!(*ahead.next(None).unwrap() == maps_at(2.0));
+    }
 
     #[test]
     fn a_panic_is_an_error_and_not_a_hang() {

@@ -115,6 +115,11 @@ impl Sea {
     /// # Errors
     /// [`SeaError::Time`] unless `time` is finite; [`SeaError::Maps`] for maps of another sea.
     pub fn step(&mut self, time: f64, maps: &mut SeaMaps) -> Result<(), SeaError> {
+        self.step_some(time, u32::MAX, maps)
+    }
+
+    /// [`Sea::step`] of those cascades whose bit is set; the maps of the others stay as they are.
+    fn step_some(&mut self, time: f64, cascades: u32, maps: &mut SeaMaps) -> Result<(), SeaError> {
         if !time.is_finite() {
             return Err(SeaError::Time { time });
         }
@@ -125,10 +130,13 @@ impl Sea {
         }
         let phase = Phase::at(time, self.settings.repeat_period);
         let (fading, times) = (self.fading.as_ref(), &self.times);
-        self.cascades
-            .par_iter_mut()
-            .zip(maps.cascades.par_iter_mut())
-            .for_each(|(cascade, maps)| cascade.step(phase, fading, maps, times));
+        self.cascades.par_iter_mut().zip(maps.cascades.par_iter_mut()).enumerate().for_each(
+            |(index, (cascade, maps))| {
+                if cascades & (1 << index) != 0 {
+                    cascade.step(phase, fading, maps, times);
+                }
+            },
+        );
         maps.time = time;
         Ok(())
     }

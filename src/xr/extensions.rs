@@ -38,6 +38,8 @@ pub const REQUIRED: &str = "XR_KHR_vulkan_enable2";
 /// All of them.
 pub static KNOWN: &[Known] = known![
     "XR_KHR_vulkan_enable2" khr_vulkan_enable2 "drawing with Vulkan",
+    #[cfg(target_os = "android")]
+    "XR_KHR_android_create_instance" khr_android_create_instance "a session that follows the activity",
     "XR_EXT_debug_utils" ext_debug_utils "names and messages",
     "XR_KHR_composition_layer_depth" khr_composition_layer_depth "depth for reprojection",
     "XR_KHR_visibility_mask" khr_visibility_mask "nothing is drawn that lenses hide",

@@ -12,6 +12,7 @@ mod input;
 mod lifecycle;
 mod messages;
 mod notice;
+mod platform;
 mod runtime;
 mod session;
 mod swapchain;
@@ -24,6 +25,9 @@ pub use input::{HANDS, Hand, Input};
 pub use lifecycle::{Demand, Lifecycle};
 pub use notice::Notice;
 pub use openxr::{EventDataBuffer, SessionState, Time};
-pub use runtime::{About, Runtime, VIEWS, ViewSize, about};
+pub use platform::Platform;
+#[cfg(not(target_os = "android"))]
+pub use runtime::{About, about};
+pub use runtime::{Runtime, VIEWS, ViewSize};
 pub use session::{FrameTime, Mask, Pose, Session, View};
 pub use swapchain::{Swapchain, SwapchainInfo, Usage};

@@ -4,6 +4,7 @@ use super::error::{Doing, XrError};
 use super::extensions;
 use super::messages::Messenger;
 use super::notice::Notice;
+use super::platform::Platform;
 use crate::gpu::{Messages, Validation};
 use openxr::{self as xr, sys};
 use std::sync::Arc;
@@ -43,12 +44,12 @@ pub struct Runtime {
 }
 
 impl Runtime {
-    /// Loads OpenXR and finds a headset.
+    /// Loads OpenXR on `platform` and finds a headset.
     ///
     /// # Errors
     /// No loader, no runtime, no headset, no Vulkan, or no stereo.
-    pub fn new(validation: Validation) -> Result<Arc<Self>, XrError> {
-        let (name, instance, wanted, messenger) = connect(validation)?;
+    pub fn new(platform: Platform, validation: Validation) -> Result<Arc<Self>, XrError> {
+        let (name, instance, wanted, messenger) = connect(platform, validation)?;
         let system = match instance.system(xr::FormFactor::HEAD_MOUNTED_DISPLAY) {
             Err(sys::Result::ERROR_FORM_FACTOR_UNAVAILABLE | sys::Result::ERROR_FORM_FACTOR_UNSUPPORTED) => {
                 return Err(XrError::NoHeadset { runtime: name });
@@ -122,8 +123,8 @@ impl Runtime {
 type Connection = (String, xr::Instance, xr::ExtensionSet, Option<Messenger>);
 
 /// The runtime alone: its name, an instance, the extensions that are enabled.
-fn connect(validation: Validation) -> Result<Connection, XrError> {
-    let (entry, found) = load()?;
+fn connect(platform: Platform, validation: Validation) -> Result<Connection, XrError> {
+    let (entry, found) = load(platform)?;
     let mut wanted = extensions::wanted(&found);
     let layers: &[&str] = match validation {
         Validation::Off => &[],
@@ -148,7 +149,8 @@ fn connect(validation: Validation) -> Result<Connection, XrError> {
         // Nothing newer is needed, and every runtime has it.
         api_version: xr::Version::new(1, 0, 0),
     };
-    let instance = entry.create_instance(&application, &wanted, layers, &()).map_err(no_runtime)?;
+    let instance = entry.create_instance(&application, &wanted, layers, &platform.info());
+    let instance = instance.map_err(no_runtime)?;
     let about = instance.properties().doing("asking for the runtime's name")?;
     let name = format!("{} {}", about.runtime_name, about.runtime_version);
     let messenger = (validation == Validation::On).then(|| Messenger::new(&instance)).flatten();
@@ -156,9 +158,11 @@ fn connect(validation: Validation) -> Result<Connection, XrError> {
 }
 
 /// The loader and what the runtime behind it can do.
-fn load() -> Result<(xr::Entry, xr::ExtensionSet), XrError> {
-    // SAFETY: loading the system's OpenXR loader runs its initialisers, which are trusted.
-    let entry = unsafe { xr::Entry::load(&()) }.map_err(|error| XrError::NoLoader(error.to_string()))?;
+fn load(platform: Platform) -> Result<(xr::Entry, xr::ExtensionSet), XrError> {
+    // SAFETY: loading the system's OpenXR loader (on Android the one beside this library) runs its initialisers, which are
+    // trusted.
+    let entry =
+        unsafe { xr::Entry::load(&platform.info()) }.map_err(|error| XrError::NoLoader(error.to_string()))?;
     let found = entry.enumerate_extensions().map_err(no_runtime)?;
     Ok((entry, found))
 }
@@ -173,6 +177,7 @@ fn no_runtime(result: sys::Result) -> XrError {
 }
 
 /// What `swell info` tells: the runtime's name, the headset's, its views, and for each known extension whether it is there.
+#[cfg(not(target_os = "android"))]
 pub struct About {
     /// Name and version.
     pub runtime: String,
@@ -186,11 +191,13 @@ pub struct About {
 ///
 /// # Errors
 /// No loader or no runtime.
+#[cfg(not(target_os = "android"))]
 pub fn about() -> Result<About, XrError> {
-    let (_, found) = load()?;
+    let (_, found) = load(Platform)?;
     let extensions =
         extensions::KNOWN.iter().map(|known| (known.name, known.purpose, known.is_in(&found))).collect();
-    let (runtime, ..) = connect(Validation::Off)?;
-    let headset = Runtime::new(Validation::Off).map(|runtime| (runtime.headset.clone(), runtime.size));
+    let (runtime, ..) = connect(Platform, Validation::Off)?;
+    let headset =
+        Runtime::new(Platform, Validation::Off).map(|runtime| (runtime.headset.clone(), runtime.size));
     Ok(About { runtime, headset, extensions })
 }

@@ -142,6 +142,11 @@ impl Session {
         Ok(demand)
     }
 
+    /// The device it draws with.
+    pub const fn device(&self) -> &Arc<Device> {
+        &self.device
+    }
+
     /// Where the session is.
     pub const fn lifecycle(&self) -> Lifecycle {
         self.lifecycle

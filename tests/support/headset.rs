@@ -103,6 +103,7 @@ fn lenses_over(seen: &Picture, lone: &Picture) -> [Picture; 2] {
 /// Everything checked, nothing waited for.
 pub fn settings(frames: u64) -> HeadsetSettings {
     HeadsetSettings {
+        platform: swell::xr::Platform,
         look: Look::Water,
         validation: Validation::On,
         threads: 0,
@@ -112,7 +113,10 @@ pub fn settings(frames: u64) -> HeadsetSettings {
         scale: 1.0,
         refresh_rate: None,
         foveation: FoveationLevel::High,
+        sustained: true,
+        thread_hints: true,
         space_warp: false,
+        fallback: None,
     }
 }
 

@@ -3,12 +3,14 @@
 //! One thread does it all, and the sea's workers step ahead meanwhile. Whoever else wants a look (a window that mirrors, a
 //! log, a person at the keyboard) is a [`Guest`] of this loop and never makes it wait.
 
+mod adapt;
 mod eyes;
 mod leap;
 mod pace;
 mod patience;
 mod ride;
 mod stage;
+mod views;
 mod visit;
 mod warp;
 mod world;
@@ -22,7 +24,8 @@ use crate::gpu::Validation;
 use crate::scene::Scene;
 use crate::sea::SeaAhead;
 use crate::xr::vendor::FoveationLevel;
-use crate::xr::{Demand, EventDataBuffer, HANDS, Notice, XrError};
+use crate::xr::{Demand, EventDataBuffer, HANDS, Notice, Platform, XrError};
+use adapt::Adapt;
 use pace::Pace;
 use patience::{Patience, find_runtime};
 use ride::{Person, Ride};
@@ -35,6 +38,8 @@ use world::{World, keep, open};
 /// What to show, and how.
 #[derive(Clone, Debug)]
 pub struct HeadsetSettings {
+    /// Where a runtime is looked for.
+    pub platform: Platform,
     /// What is drawn on the surface.
     pub look: Look,
     /// Whether validation listens, Vulkan's and OpenXR's.
@@ -53,8 +58,14 @@ pub struct HeadsetSettings {
     pub refresh_rate: Option<f32>,
     /// How coarse the rim of a view may be, where the runtime can.
     pub foveation: FoveationLevel,
+    /// Ask for clocks that last, where the runtime listens.
+    pub sustained: bool,
+    /// Tell Android's scheduler which threads make the frame.
+    pub thread_hints: bool,
     /// Draw every other frame only, where the runtime makes those between from motion vectors (`XR_FB_space_warp`).
     pub space_warp: bool,
+    /// Draw less finely while frames run late, beginning on the level of this number: [`crate::host::fallback::Ladder`].
+    pub fallback: Option<usize>,
 }
 
 /// What a run came to.
@@ -68,6 +79,8 @@ pub struct HeadsetReport {
     pub missed: u64,
     /// Sessions begun anew after one was lost.
     pub recovered: u32,
+    /// Number of the level that the run ended on, 0 for the best.
+    pub level: usize,
     /// Everything validation said, the end included.
     pub said: Vec<String>,
 }
@@ -89,10 +102,11 @@ pub fn headset(
     guest: &mut dyn Guest,
 ) -> Result<HeadsetReport, HostError> {
     let (report, ride) = (HeadsetReport::default(), Ride::new(scene)?);
+    let adapt = Adapt::new(scene, settings);
     let mut patience = Patience::default();
     let (runtime, started) = loop {
         let Some(runtime) = find_runtime(settings, guest, &mut patience)? else { return Ok(report) };
-        let open = || open(settings, &runtime, guest);
+        let open = || open(settings, &runtime, guest, adapt.level().scale);
         match painter::start(scene, settings.look, settings.threads, None, open) {
             Ok(started) => break (runtime, started),
             Err(error) => {
@@ -111,11 +125,13 @@ pub fn headset(
     };
     let (sky, sea) = (started.sky, started.sea);
     let world = World { painter: started.painter, runtime };
-    let mut show = Show { scene, settings, sky, sea, pace: Pace::default(), ride, report };
+    let mut show = Show { scene, settings, sky, sea, pace: Pace::default(), ride, adapt, report };
+    guest.level(show.adapt.number());
     let ended = show.go_on(world, started.opened, guest);
     // Whatever went wrong: what a guest made on the device must not outlive the runtime.
     guest.closing();
     show.report.missed = show.pace.missed();
+    show.report.level = show.adapt.number();
     ended.map(|()| show.report)
 }
 
@@ -127,6 +143,7 @@ struct Show<'a> {
     sea: SeaAhead,
     pace: Pace,
     ride: Ride,
+    adapt: Adapt,
     report: HeadsetReport,
 }
 
@@ -142,6 +159,7 @@ impl Show<'_> {
     fn go_on(&mut self, world: World, stage: Stage, guest: &mut dyn Guest) -> Result<(), HostError> {
         let (mut world, mut stage) = (world, Some(stage));
         let mut losses = 0;
+        self.use_level(&mut world)?;
         loop {
             let shown = self.report.shown;
             let over = self.session(&mut world, &mut stage, guest);
@@ -181,6 +199,7 @@ impl Show<'_> {
                     parted?;
                     let Some((found, opened)) = self.again(&error, guest)? else { return Ok(()) };
                     (world, stage, losses) = (found, Some(opened), 0);
+                    self.use_level(&mut world)?;
                 }
             }
             self.report.recovered += 1;
@@ -215,7 +234,7 @@ impl Show<'_> {
         }
         loop {
             let Some(runtime) = find_runtime(self.settings, guest, &mut patience)? else { return Ok(None) };
-            match open(self.settings, &runtime, guest) {
+            match open(self.settings, &runtime, guest, self.adapt.level().scale) {
                 Err(HostError::Xr(error)) if error.may_pass() => {
                     guest.closing();
                     if !patience.wait(&error, guest) {
@@ -247,15 +266,20 @@ impl Show<'_> {
         let stage = match kept {
             Some(stage) => stage,
             None => {
-                kept.insert(Stage::new(&world.runtime, world.painter.device(), self.settings, guest.looks())?)
+                let scale = self.adapt.level().scale;
+                let device = world.painter.device();
+                kept.insert(Stage::new(&world.runtime, device, self.settings, guest.looks(), scale)?)
             }
         };
-        stage.hint_threads(&self.sea.kernel_ids())?;
+        if self.settings.thread_hints {
+            stage.hint_threads(&self.sea.kernel_ids())?;
+        }
         stage.show_hidden_area(&mut world.painter)?;
         if let Some(warp) = &stage.warp {
             world.painter.prepare_motion(warp.target())?;
         }
         self.pace.forget_clock();
+        self.adapt.interrupt();
         let mut buffer = EventDataBuffer::new();
         let mut asked_to_end: Option<Instant> = None;
         loop {
@@ -297,6 +321,9 @@ impl Show<'_> {
             if running {
                 let ending = asked_to_end.is_some();
                 self.frame(world, stage, guest, ending)?;
+                if let Some(change) = self.adapt.take() {
+                    self.change_level(change, world, stage, guest)?;
+                }
             } else {
                 thread::sleep(REST);
             }
@@ -325,6 +352,7 @@ impl Show<'_> {
         };
         let (Some(views), Some(turns)) = (views, turns) else {
             stage.end_empty(time)?;
+            self.adapt.interrupt();
             if !ending {
                 self.report.skipped += 1;
             }
@@ -338,9 +366,9 @@ impl Show<'_> {
         let person = Person { views: &views, hands: &hands, joints: &joints, moved };
         let ridden = self.ride.step(self.scene, maps, seconds, &person);
         let index = self.report.shown as usize;
-        let (target, motion) = ((&stage.target, turns.views), stage.motion(turns));
+        let (target, motion) = ((&stage.views.target, turns.views), stage.motion(turns));
         let counts = world.painter.paint_moving(index, target, motion, ridden.moment(maps), |commands| {
-            stage.copy(commands, turns.views);
+            stage.views.copy(commands, turns.views);
         })?;
         stage.release()?;
         stage.end(time, ridden.step)?;
@@ -348,6 +376,7 @@ impl Show<'_> {
             stage.input.buzz(&stage.session, hand, 0.5)?;
         }
         self.report.shown += 1;
+        self.adapt.frame(time);
         let drawn = Drawn {
             eyes: &ridden.eyes,
             hands: &hands,

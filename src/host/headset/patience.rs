@@ -55,7 +55,7 @@ pub fn find_runtime(
     patience: &mut Patience,
 ) -> Result<Option<Arc<Runtime>>, HostError> {
     loop {
-        match Runtime::new(settings.validation) {
+        match Runtime::new(settings.platform, settings.validation) {
             Err(error) if settings.wait && error.may_pass() => {
                 if !patience.wait(&error, guest) {
                     return Ok(None);

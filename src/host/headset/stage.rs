@@ -1,37 +1,29 @@
 //! A session and the images that are drawn in it.
 
 use super::HeadsetSettings;
+use super::views::Views;
 use super::warp::Warp;
 use crate::draw::{HiddenMesh, NEAR};
-use crate::gpu::{Device, GpuError, Image, ImageInfo, Lent, Recorder, Target, TargetInfo, Turn};
+use crate::gpu::{Device, Image, Target, Turn};
 use crate::host::HostError;
 use crate::host::painter::Painter;
 use crate::jobs::kernel_id;
-use crate::xr::vendor::{self, Foveation, HandJoints, Joints, ThreadRole};
+use crate::xr::vendor::{self, HandJoints, Joints, ThreadRole};
 use crate::xr::{
-    DepthRange, FrameTime, HANDS, Hand, Input, Layer, Runtime, Session, SpaceStep, Swapchain, SwapchainInfo,
-    Time, Usage, VIEWS, XrError, extensions,
+    DepthRange, FrameTime, HANDS, Hand, Input, Layer, Runtime, Session, SpaceStep, Time, XrError, extensions,
 };
-use ash::vk;
 use std::sync::Arc;
 use std::time::Duration;
 
 /// How long an image is waited for before a frame goes without: far longer than a compositor that lives keeps one.
 pub(super) const IMAGE_PATIENCE: Duration = Duration::from_millis(500);
 
-/// Formats that views are drawn in: what a shader writes is linear, and what is stored is sRGB.
-const COLORS: [vk::Format; 2] = [vk::Format::R8G8B8A8_SRGB, vk::Format::B8G8R8A8_SRGB];
-
 /// In the order they are dropped: views of images before the images, all before the session.
 pub struct Stage {
-    pub target: Target,
-    picture: Option<Image>,
-    color: Swapchain,
-    depth: Option<Swapchain>,
+    pub views: Views,
     pub warp: Option<Warp>,
     pub input: Input,
     joints: Option<HandJoints>,
-    foveation: Option<Foveation>,
     refresh_rate: Option<f32>,
     sustained: bool,
     /// When the runtime moves play space's origin, if it is about to.
@@ -50,12 +42,12 @@ pub struct Turns {
 
 impl AsRef<Target> for Stage {
     fn as_ref(&self) -> &Target {
-        &self.target
+        &self.views.target
     }
 }
 
 impl Stage {
-    /// Begins a session; its frames are copied where somebody `looks`.
+    /// Begins a session; its frames are copied where somebody `looks`. Views are `scale` times as large as `settings` say.
     ///
     /// # Errors
     /// The runtime has gone, refuses, or has no format that can be drawn.
@@ -64,83 +56,34 @@ impl Stage {
         device: &Arc<Device>,
         settings: &HeadsetSettings,
         looks: bool,
+        scale: f32,
     ) -> Result<Self, HostError> {
         let session = Session::new(runtime, device)?;
         let formats = session.formats()?;
-        let format =
-            COLORS.into_iter().find(|format| formats.contains(format)).ok_or_else(|| XrError::Missing {
-                runtime: runtime.name.clone(),
-                what: "images of 8-bit sRGB colours".to_owned(),
-            })?;
-        let size = scaled(runtime, settings.scale);
-        let wished =
-            settings.foveation != vendor::FoveationLevel::Off && Foveation::is_offered(runtime, device);
-        // Subsampled images cannot be copied from. Whole ones want a feature of the device, the depth that is kept too.
-        let whole = device.physical.density_maps_on_whole_images;
-        let subsampled = wished && !looks && runtime.extensions.meta_vulkan_swapchain_create_info;
-        let foveated = wished && (subsampled || whole);
-        let usage = Usage::Color { copied: looks };
-        let info = SwapchainInfo { size, format, usage, foveated, subsampled };
-        let color = Swapchain::new(&session, info)?;
-        let takes_depth = runtime.extensions.khr_composition_layer_depth
-            && formats.contains(&crate::gpu::DEPTH_FORMAT)
-            && device.physical.depth_resolve
-            && (!foveated || whole);
-        let depth = takes_depth
-            .then(|| {
-                let info = SwapchainInfo {
-                    format: crate::gpu::DEPTH_FORMAT,
-                    usage: Usage::Depth,
-                    foveated: false,
-                    subsampled: false,
-                    ..info
-                };
-                Swapchain::new(&session, info)
-            })
-            .transpose()?;
-        let foveation = if foveated {
-            let profile = Foveation::new(&session, settings.foveation)
-                .and_then(|profile| profile.apply(&session, &color).map(|()| Some(profile)));
-            optional("foveation", profile, None)?
-        } else {
-            None
-        };
-        let target = Target::over(
-            device,
-            TargetInfo {
-                extent: vk::Extent2D { width: size[0], height: size[1] },
-                views: VIEWS as u32,
-                format,
-                samples: vk::SampleCountFlags::TYPE_4,
-            },
-            &Lent {
-                colors: color.images(),
-                depths: depth.as_ref().map(Swapchain::images).unwrap_or_default(),
-                density_maps: color.density_maps(),
-                subsampled,
-            },
-        )?;
+        let views = Views::new(&session, device, &formats, settings, looks, scale)?;
         let warp = if settings.space_warp { Warp::new(&session, device, &formats)? } else { None };
-        let picture = if looks { Some(copy_of(device, &info)?) } else { None };
         let input = Input::new(&session)?;
         let joints = optional("hands without controllers", HandJoints::new(&session), None)?;
         let refresh_rate = vendor::choose_refresh_rate(&session, settings.refresh_rate);
         let refresh_rate = optional("a chosen refresh rate", refresh_rate, None)?;
-        let sustained = optional("sustained clocks", vendor::sustain(&session), false)?;
-        Ok(Self {
-            target,
-            picture,
-            color,
-            depth,
-            warp,
-            input,
-            joints,
-            foveation,
-            refresh_rate,
-            sustained,
-            moves_at: None,
-            session,
-        })
+        let sustained = settings.sustained && optional("sustained clocks", vendor::sustain(&session), false)?;
+        Ok(Self { views, warp, input, joints, refresh_rate, sustained, moves_at: None, session })
+    }
+
+    /// Pixels of a view.
+    pub const fn size(&self) -> [u32; 2] {
+        self.views.color.info.size
+    }
+
+    /// Makes the views' images anew, `scale` times as large as `settings` say. Every frame is finished.
+    ///
+    /// # Errors
+    /// As [`Views::new`].
+    pub fn resize(&mut self, settings: &HeadsetSettings, looks: bool, scale: f32) -> Result<(), HostError> {
+        let formats = self.session.formats()?;
+        let device = Arc::clone(self.session.device());
+        self.views = Views::new(&self.session, &device, &formats, settings, looks, scale)?;
+        Ok(())
     }
 
     /// Whether play space's origin has moved since the frame before the one of `time`.
@@ -167,7 +110,7 @@ impl Stage {
     /// Says once what was found.
     pub fn tell(&self, settings: &HeadsetSettings) {
         let runtime = &self.session.runtime;
-        let [width, height] = self.color.info.size;
+        let [width, height] = self.size();
         eprintln!(
             "headset: {} on {}, {width}x{height} an eye, standing in {:?}",
             runtime.headset, runtime.name, self.session.space
@@ -187,8 +130,8 @@ impl Stage {
         eprintln!("extensions missing: {}", list(false));
         let mut extras: Vec<String> = Vec::new();
         extras.extend(self.refresh_rate.map(|rate| format!("{rate} Hz")));
-        extras.extend(self.depth.is_some().then(|| "depth submitted".to_owned()));
-        extras.extend(self.foveation.is_some().then(|| format!("foveation {:?}", settings.foveation)));
+        extras.extend(self.views.depth.is_some().then(|| "depth submitted".to_owned()));
+        extras.extend(self.views.foveation.is_some().then(|| format!("foveation {:?}", settings.foveation)));
         extras.extend(self.warp.as_ref().map(|warp| {
             let [width, height] = warp.size();
             format!("space warp from {width}x{height}")
@@ -244,14 +187,9 @@ impl Stage {
     /// # Errors
     /// The session or the runtime has gone.
     pub fn acquire(&mut self) -> Result<Option<Turns>, XrError> {
-        let Some(color) = self.color.acquire(IMAGE_PATIENCE)? else { return Ok(None) };
-        let depth = match &mut self.depth {
-            Some(depth) => depth.acquire(IMAGE_PATIENCE)?,
-            None => Some(0),
-        };
-        let Some(depth) = depth else { return Ok(None) };
+        let Some(views) = self.views.acquire()? else { return Ok(None) };
         let motion = self.warp.as_mut().map_or(Ok(None), Warp::acquire)?;
-        Ok(Some(Turns { views: Turn { color, depth }, motion }))
+        Ok(Some(Turns { views, motion }))
     }
 
     /// Where the frame's motion goes, if it is to be drawn.
@@ -264,8 +202,7 @@ impl Stage {
     /// # Errors
     /// The session or the runtime has gone.
     pub fn release(&mut self) -> Result<(), XrError> {
-        self.color.release()?;
-        self.depth.as_mut().map_or(Ok(()), Swapchain::release)?;
+        self.views.release()?;
         self.warp.as_mut().map_or(Ok(()), Warp::release)
     }
 
@@ -276,8 +213,8 @@ impl Stage {
     pub fn end(&mut self, time: FrameTime, step: SpaceStep) -> Result<(), XrError> {
         let range = DepthRange { near: NEAR };
         let layer = Layer {
-            color: &self.color,
-            depth: self.depth.as_ref().map(|depth| (depth, range)),
+            color: &self.views.color,
+            depth: self.views.depth.as_ref().map(|depth| (depth, range)),
             motion: self.warp.as_mut().and_then(|warp| warp.shown(range, step)),
         };
         self.session.end(time, Some(&layer))
@@ -294,21 +231,14 @@ impl Stage {
         self.session.end(time, None)
     }
 
-    /// Records a copy of what was drawn, where somebody looks.
-    pub fn copy(&self, commands: Recorder<'_>, turn: Turn) {
-        if let Some(picture) = &self.picture {
-            commands.copy_lent(self.color.images()[turn.color], picture);
-        }
-    }
-
     /// The copy.
     pub const fn picture(&self) -> Option<&Image> {
-        self.picture.as_ref()
+        self.views.picture.as_ref()
     }
 }
 
 /// What is merely good to have: where a runtime offers it and then refuses, one line says so and it is gone `without`.
-fn optional<T>(what: &str, asked: Result<T, XrError>, without: T) -> Result<T, XrError> {
+pub(super) fn optional<T>(what: &str, asked: Result<T, XrError>, without: T) -> Result<T, XrError> {
     match asked {
         Err(XrError::Call { result, .. }) => {
             eprintln!("headset: without {what}, as OpenXR says {result}");
@@ -316,29 +246,4 @@ fn optional<T>(what: &str, asked: Result<T, XrError>, without: T) -> Result<T, X
         }
         other => other,
     }
-}
-
-/// The recommended size times `scale`, within what the runtime allows.
-fn scaled(runtime: &Runtime, scale: f32) -> [u32; 2] {
-    let size = runtime.size;
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped to what is allowed")]
-    #[expect(clippy::cast_precision_loss, reason = "sizes of images")]
-    let side = |i: usize| ((size.recommended[i] as f32 * scale).round() as u32).clamp(1, size.most[i]);
-    [side(0), side(1)]
-}
-
-fn copy_of(device: &Arc<Device>, info: &SwapchainInfo) -> Result<Image, GpuError> {
-    let usage = vk::ImageUsageFlags::TRANSFER_SRC | vk::ImageUsageFlags::TRANSFER_DST;
-    let copy = ImageInfo {
-        extent: info.size,
-        layers: VIEWS as u32,
-        mips: 1,
-        format: info.format,
-        samples: vk::SampleCountFlags::TYPE_1,
-        // A copy is never drawn into or sampled, but every image has a view, which wants one such use.
-        usage: usage | vk::ImageUsageFlags::SAMPLED,
-        view: vk::ImageViewType::TYPE_2D_ARRAY,
-        subsampled: false,
-    };
-    Image::new(device, "copy of both eyes", copy)
 }

@@ -84,6 +84,9 @@ pub trait Guest {
     /// The session entered a state.
     fn state(&mut self, _name: &'static str) {}
 
+    /// Frames are made on the level of this number from now on: [`crate::host::fallback`].
+    fn level(&mut self, _number: usize) {}
+
     /// A frame was ended.
     ///
     /// # Errors

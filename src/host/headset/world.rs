@@ -31,11 +31,12 @@ pub fn keep(
     }
 }
 
-/// Vulkan as the runtime wants it, and a first session.
+/// Vulkan as the runtime wants it, and a first session with views `scale` times as large as `settings` say.
 pub fn open(
     settings: &HeadsetSettings,
     runtime: &Arc<Runtime>,
     guest: &mut dyn Guest,
+    scale: f32,
 ) -> Result<(Arc<Device>, Stage), HostError> {
     let instance = match Instance::new(settings.validation, guest.instance_extensions(), &**runtime) {
         // A window costs the headset nothing, not even where there can be none.
@@ -58,7 +59,7 @@ pub fn open(
     };
     let device = Device::new(instance, physical, &needs).map_err(gone)?;
     guest.opened(&device)?;
-    let stage = Stage::new(runtime, &device, settings, guest.looks())?;
+    let stage = Stage::new(runtime, &device, settings, guest.looks(), scale)?;
     stage.tell(settings);
     Ok((device, stage))
 }
