@@ -21,7 +21,7 @@ const CALM: u32 = 20 * WINDOW;
 /// The same, at most: about five minutes.
 const MOST_CALM: u32 = 16 * CALM;
 /// A display's time between two frames that is no lateness but a pause, seconds.
-const PAUSE: f64 = 0.25;
+const PAUSE: f64 = 1.0;
 
 /// How finely frames are made.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -68,6 +68,9 @@ fn run(app: &AndroidApp) -> Result<(), EntryError> {
     let kept = folders.kept();
     let settings = settings(app, &scene, defaults, &chosen, folders.cache(), &name, &kept);
     let mut watch = Watch::new(app.clone(), kept, name);
+    if !watch.is_shown() {
+        return Ok(());
+    }
     let shown = headset(&scene, &settings, &mut watch);
     watch.keep();
     let report = shown?;

@@ -30,6 +30,15 @@ impl Watch {
         Self { app, activity: Activity::default(), device: None, file, kept, stored: None }
     }
 
+    /// Waits until the activity is in front; `false` where it is destroyed before. What a host opens takes a second or more,
+    /// in which no callback is answered: those that come first are over by then.
+    pub fn is_shown(&mut self) -> bool {
+        while self.activity.next() == Next::Wait {
+            self.listen(NAP);
+        }
+        self.activity.next() == Next::Frames
+    }
+
     /// Keeps what the next run begins with.
     pub fn keep(&mut self) {
         if let Some(device) = &self.device {
