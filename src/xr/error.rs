@@ -2,11 +2,18 @@
 
 use openxr::sys;
 
+/// What to do where there is no loader.
+const LOADER: &str = if cfg!(target_os = "android") {
+    "put libopenxr_loader.so beside libmain.so in the APK"
+} else {
+    "install it (Debian: apt-get install libopenxr-loader1)"
+};
+
 /// A failure of the XR layer.
 #[derive(Debug, thiserror::Error)]
 pub enum XrError {
     /// No OpenXR loader on this machine.
-    #[error("no OpenXR loader: {0}; install it (Debian: apt-get install libopenxr-loader1)")]
+    #[error("no OpenXR loader: {0}; {LOADER}")]
     NoLoader(String),
     /// The loader found no runtime, or the one it found does not answer.
     #[error("{}; start one (Monado: monado-service), or wait for it with --xr-wait", self.what())]
