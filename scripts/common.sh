@@ -71,3 +71,9 @@ need_rust_component() {
   fi
   fail "'cargo $1' is missing: add it with 'rustup component add $2'"
 }
+
+# Where cargo leaves what it builds.
+target_directory() {
+  cargo metadata --format-version 1 --no-deps --locked --manifest-path "$project/Cargo.toml" |
+    sed -n 's/.*"target_directory":"\([^"]*\)".*/\1/p'
+}
