@@ -14,10 +14,10 @@ debian_tools() {
     fail "$debian_keyring is missing, so Debian's packages cannot be checked: install debian-archive-keyring, or $1"
 }
 
-# debian_open FOLDER SUITE ARCHITECTURE WHAT-TO-DO-INSTEAD: makes FOLDER an apt of its own with the package list of SUITE,
-# for debian_apt. Archives come to FOLDER/cache/archives.
+# debian_open FOLDER SUITES ARCHITECTURE WHAT-TO-DO-INSTEAD: makes FOLDER an apt of its own with the package lists of SUITES
+# (one word, or several), for debian_apt. Archives come to FOLDER/cache/archives.
 debian_open() {
-  local apt=$1 suite=$2 architecture=$3 instead=$4 mirrors mirror
+  local apt=$1 suites=$2 architecture=$3 instead=$4 mirrors mirror suite
   mkdir -p "$apt"/{lists/partial,cache/archives/partial,empty.d}
   : >"$apt/status"
   # The machine's own hooks are not to run: containers have one that empties the machine's archive of packages, under
@@ -41,10 +41,10 @@ debian_open() {
     sed -n 's/^main //p' | awk '!seen[$0]++')
   ((${#mirrors[@]})) || fail "this machine's apt has no sources, so there is no mirror to fetch Debian's packages from: add one, or $instead"
   for mirror in "${mirrors[@]}"; do
-    echo "deb [signed-by=$debian_keyring] $mirror $suite main" >"$apt/sources.list"
+    for suite in $suites; do echo "deb [signed-by=$debian_keyring] $mirror $suite main"; done >"$apt/sources.list"
     debian_apt update && return 0
   done
-  fail "none of this machine's apt mirrors gave the package list of Debian's $suite (network? not a Debian mirror?): $(debian_why)"
+  fail "none of this machine's apt mirrors gave the package list of Debian's $suites (network? not a Debian mirror?): $(debian_why)"
 }
 
 debian_apt() { apt-get "${debian_options[@]}" -qq "$@" >>"$debian_log" 2>&1 </dev/null; }
