@@ -107,7 +107,7 @@ fn compile(
 ) -> Result<(), Failure> {
     let module = naga::front::wgsl::parse_str(&source.text)
         .map_err(|error| source.error(error.location(&source.text), &describe(&error)))?;
-    let capabilities = Capabilities::MULTIVIEW | Capabilities::IMMEDIATES;
+    let capabilities = Capabilities::MULTIVIEW;
     let info = Validator::new(ValidationFlags::all(), capabilities)
         .validate(&module)
         .map_err(|error| source.error(error.location(&source.text), &describe(error.as_inner())))?;
@@ -131,6 +131,11 @@ fn compile(
             let bytes: Vec<u8> = words.iter().flat_map(|word| word.to_le_bytes()).collect();
             fs::write(out.join(&name), bytes).map_err(|e| format!("{name}: {e}"))?;
             variants.push(format!("include_bytes!(concat!(env!(\"OUT_DIR\"), \"/{name}\"))"));
+        }
+        for cascades in 1..=variants.len() {
+            let each = if varies { format!("[{}]", cascades - 1) } else { String::new() };
+            let name = format!("{stem}.{}", entry.name);
+            reflection.modules.push(format!("(\"{name}\", {cascades}, {constant}{each})"));
         }
         let about = format!("/// `{}`, `{}`", file.display(), entry.name);
         let counted = format!("/// Texture fetches of [`{constant}`], at most, each time that it runs");
@@ -241,6 +246,7 @@ fn fetches(module: &Module, function: &Function, block: &Block) -> u32 {
 struct Reflection {
     bindings: BTreeMap<u32, &'static str>,
     uniform_size: u32,
+    modules: Vec<String>,
 }
 
 impl Reflection {
@@ -277,9 +283,12 @@ impl Reflection {
         let _never = writeln!(
             generated,
             "/// Every binding of every shader.\npub static BINDINGS: &[(u32, BindingKind)] = &[{}];\n\
-             /// Bytes of the uniform block.\npub const UNIFORM_SIZE: usize = {};",
+             /// Bytes of the uniform block.\npub const UNIFORM_SIZE: usize = {};\n\
+             /// Every module: its file and entry point, the number of cascades it is for (1 where that does not matter), SPIR-V.\n\
+             pub static MODULES: &[(&str, u32, &[u8])] = &[{}];",
             list.join(", "),
-            self.uniform_size
+            self.uniform_size,
+            self.modules.join(", ")
         );
     }
 }

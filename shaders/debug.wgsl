@@ -18,15 +18,15 @@ fn level_color(level: f32) -> vec3f {
     return colors[u32(level) % 9u];
 }
 
-fn normal_at(rest: vec2f) -> vec3f {
-    let slope = surface_at(rest).slope;
-    return normalize(vec3f(-slope.x, 1.0, -slope.y));
+fn normal_at(in: Varyings) -> vec3f {
+    let tilt = surface_at(in).tilt;
+    return normalize(vec3f(tilt.x, 1.0, tilt.y));
 }
 
 // The patch's level, shaded by the waves.
 @fragment
 fn lod_main(in: Varyings) -> @location(0) vec4f {
-    let light = 0.35 + 0.65 * saturate(dot(normal_at(in.rest), frame.sun.xyz) + 0.3);
+    let light = 0.35 + 0.65 * saturate(dot(normal_at(in), frame.sun.xyz) + 0.3);
     return vec4f(level_color(in.level) * light, 1.0);
 }
 
@@ -44,14 +44,14 @@ fn line_main(in: Varyings) -> @location(0) vec4f {
 // Normals as colours: x red, z green, up blue.
 @fragment
 fn normal_main(in: Varyings) -> @location(0) vec4f {
-    return vec4f(normal_at(in.rest).xzy * 0.5 + 0.5, 1.0);
+    return vec4f(normal_at(in).xzy * 0.5 + 0.5, 1.0);
 }
 
 // Compression 1 - J: blue where the surface is stretched or still, white where foam begins, red beyond.
 @fragment
 fn jacobian_main(in: Varyings) -> @location(0) vec4f {
-    let surface = surface_at(in.rest);
-    let c = surface.compression / max(frame.foam_range.x, 0.01);
+    let surface = surface_at(in);
+    let c = surface.compression / max(frame.foam_range.x / frame.foam_range.y, 0.01);
     let calm = mix(vec3f(0.02, 0.05, 0.2), vec3f(0.9), saturate(c));
     return vec4f(mix(calm, vec3f(0.8, 0.05, 0.02), saturate(c - 1.0)), 1.0);
 }
@@ -59,7 +59,7 @@ fn jacobian_main(in: Varyings) -> @location(0) vec4f {
 // Height as a colour: blue troughs, white at rest, red crests; +-4 RMS heights are the ends.
 @fragment
 fn height_main(in: Varyings) -> @location(0) vec4f {
-    let h = clamp(in.position.y * frame.foam_range.w, -1.0, 1.0);
+    let h = clamp(in.height * frame.foam_range.w, -1.0, 1.0);
     let low = mix(vec3f(0.8), vec3f(0.02, 0.1, 0.6), saturate(-h));
     return vec4f(mix(low, vec3f(0.7, 0.05, 0.02), saturate(h)), 1.0);
 }
@@ -67,5 +67,5 @@ fn height_main(in: Varyings) -> @location(0) vec4f {
 // Height in metres.
 @fragment
 fn metres_main(in: Varyings) -> @location(0) vec4f {
-    return vec4f(in.position.y, 0.0, 0.0, 1.0);
+    return vec4f(in.height, 0.0, 0.0, 1.0);
 }

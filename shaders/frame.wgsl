@@ -8,24 +8,34 @@ struct Cascade {
     offset: vec2f,
     // Cosine and sine of the cascade's rotation.
     axes: vec2f,
-    // 1 / L.
-    per_metre: f32,
-    // log2 of metres a texel.
-    log_texel: f32,
-    unused: vec2f,
+    // The same over L.
+    axes_per_length: vec2f,
+    // log2 of the distance at which vertices are a texel apart.
+    log_reach: f32,
+    unused: f32,
+    // From a texel of the gradient map, 0 to 1, to the level part of the normal in the world, times the scene's detail:
+    // twice the axes, and what 0.5 becomes, negated.
+    twice_axes: vec2f,
+    middle: vec2f,
+}
+
+// Of 128 bytes, so that what is found by a view's number is found by one shift.
+struct View {
+    // From positions relative to the origin to clip space.
+    projection: mat4x4f,
+    // Where it is, relative to the origin.
+    eye: vec4f,
+    // From tangents of angles to the right and up (x, y) to clip space: factors in xy, then summands in zw.
+    scale: vec4f,
+    unused: array<vec4f, 2>,
 }
 
 struct Frame {
-    // From positions relative to the origin to clip space, for each view.
-    view_projection: array<mat4x4f, 2>,
+    views: array<View, 2>,
     // The same for the frame before, from positions relative to this frame's origin.
     previous_view_projection: array<mat4x4f, 2>,
     // From clip space (x, y, 0, 1) to a direction.
     clip_to_ray: array<mat4x4f, 2>,
-    // From tangents of angles to the right and up (x, y) to clip space: factors in xy, then summands in zw.
-    view_scale: array<vec4f, 2>,
-    // The eyes, relative to the origin.
-    eyes: array<vec4f, 2>,
     // The head: where level of detail is measured from, the same for both views.
     head: vec4f,
     cascades: array<Cascade, 4>,
@@ -36,19 +46,22 @@ struct Frame {
     // rgb: illuminance of the sea plane by the sky alone; w: the water's own squared roughness, as often as the sum
     // over cascades counts it too much.
     sky_light: vec4f,
-    // rgb: diffuse reflectance of deep water; w: factor on the slopes.
+    // rgb: diffuse reflectance of deep water over pi.
     deep: vec4f,
-    // rgb: colour of light through crests; w: its strength over the sea's RMS height.
+    // rgb: colour of light through crests times its strength over the sea's RMS height.
     scatter: vec4f,
-    // rgb: albedo of foam.
+    // rgb: albedo of foam over pi.
     foam: vec4f,
-    // x: compression where foam begins; y: 1 / width; z: repeats of the foam's pattern a patch of the first
+    // x, y: foam's range is y compression - x, from 0 where it begins to 1; z: repeats of the foam's pattern a patch of the first
     // cascade; w: 1 / (4 RMS heights).
     foam_range: vec4f,
-    // x: cells a patch side; y: side of the quadtree; z, w: vertex spacing = clamp(z * distance, w, ...).
+    // x: 1 / metres over which waves fade at the quadtree's border; y: side of the quadtree; z, w: squares of the distances
+    // between which the vertex spacing grows with distance.
     lod: vec4f,
-    // x: extinction of the air, 1/m; y: exposure; z: finest sky mip for alpha 1; w: coarsest spacing.
+    // x: halvings a metre of what the air lets through; z: finest sky mip for alpha 1.
     air: vec4f,
+    // Factors of the tone map, exposure in them.
+    tone: vec4f,
     // x, y: angles from a view's axis where the vignette begins and where it is complete, radians.
     vignette: vec4f,
 }
@@ -74,6 +87,13 @@ struct Frame {
 @group(0) @binding(16) var previous_2: texture_2d<f32>;
 @group(0) @binding(17) var previous_3: texture_2d<f32>;
 
+// Clip space of a point. Depth is the near plane's distance over the point's own, with which the matrix has nothing to do.
+fn to_clip(position: vec3f, view: u32) -> vec4f {
+    let projection = frame.views[view].projection;
+    let clip = projection * vec4f(position, 1.0);
+    return vec4f(clip.xy, projection[3].z, clip.w);
+}
+
 // From a direction or position along a cascade's axes (u, v) to the world's (x, z); docs/conventions.md.
 fn to_world(uv: vec2f, axes: vec2f) -> vec2f {
     return vec2f(uv.x * axes.x + uv.y * axes.y, uv.y * axes.x - uv.x * axes.y);
@@ -85,5 +105,5 @@ fn to_cascade(xz: vec2f, axes: vec2f) -> vec2f {
 
 fn map_coordinates(xz: vec2f, cascade: u32) -> vec2f {
     let c = frame.cascades[cascade];
-    return c.offset + to_cascade(xz, c.axes) * c.per_metre;
+    return c.offset + to_cascade(xz, c.axes_per_length);
 }

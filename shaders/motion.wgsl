@@ -31,21 +31,21 @@ fn patch_main(in: Patch, @builtin(view_index) view: u32) -> MotionVaryings {
     let now = still + displacement(rest);
     let before = still + displacement_in(previous_0, previous_1, previous_2, previous_3, rest);
     return moved(
-        frame.view_projection[view] * vec4f(now, 1.0),
+        frame.views[view].projection * vec4f(now, 1.0),
         frame.previous_view_projection[view] * vec4f(before, 1.0),
     );
 }
 
 @vertex
 fn skirt_main(@location(0) vertex: vec4f, @builtin(view_index) view: u32) -> MotionVaryings {
-    return moved(frame.view_projection[view] * vertex, frame.previous_view_projection[view] * vertex);
+    return moved(frame.views[view].projection * vertex, frame.previous_view_projection[view] * vertex);
 }
 
 @vertex
 fn solid_main(in: Solid, was: Before, @builtin(view_index) view: u32) -> MotionVaryings {
     let earlier = Solid(in.vertex, in.normal, was.x, was.y, was.z, was.place);
     return moved(
-        frame.view_projection[view] * vec4f(body_position(in), 1.0),
+        frame.views[view].projection * vec4f(body_position(in), 1.0),
         frame.previous_view_projection[view] * vec4f(body_position(earlier), 1.0),
     );
 }

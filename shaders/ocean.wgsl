@@ -6,12 +6,8 @@
 @vertex
 fn vertex_main(in: Patch, @builtin(view_index) view: u32) -> Varyings {
     let rest = rest_position(in);
-    var out: Varyings;
-    out.rest = rest;
-    out.position = vec3f(rest.x, 0.0, rest.y) + displacement(rest);
-    out.clip = frame.view_projection[view] * vec4f(out.position, 1.0);
+    var out = seen_from(vec3f(rest.x, 0.0, rest.y) + displacement(rest), rest, view);
     out.level = round(log2(frame.lod.y / in.place.z));
-    out.view = view;
     return out;
 }
 

@@ -6,11 +6,8 @@ fn vertex_main(@location(0) vertex: vec4f, @builtin(view_index) view: u32) -> Va
     // A long way to infinity: what is interpolated towards such a vertex is then true up to about its length, where
     // haze has long swallowed everything.
     let place = vertex * select(1.0, 1.0e7, vertex.w == 0.0);
-    var out: Varyings;
-    out.clip = frame.view_projection[view] * place;
-    out.position = place.xyz;
-    out.rest = out.position.xz;
+    var out = seen_from(place.xyz, place.xz, view);
+    out.clip = frame.views[view].projection * place;
     out.level = 0.0;
-    out.view = view;
     return out;
 }

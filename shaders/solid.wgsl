@@ -21,7 +21,7 @@ fn vertex_main(in: Solid, @builtin(view_index) view: u32) -> SolidVaryings {
     out.normal = in.x.xyz * (in.normal.x / dot(in.x.xyz, in.x.xyz))
         + in.y.xyz * (in.normal.y / dot(in.y.xyz, in.y.xyz))
         + in.z.xyz * (in.normal.z / dot(in.z.xyz, in.z.xyz));
-    out.clip = frame.view_projection[view] * vec4f(out.position, 1.0);
+    out.clip = frame.views[view].projection * vec4f(out.position, 1.0);
     // Depth is near / distance, so this divides the distance that depth stands for by 1 + w, everywhere alike.
     out.clip.z *= 1.0 + in.place.w;
     out.color = vec3f(in.x.w, in.y.w, in.z.w);
@@ -31,13 +31,13 @@ fn vertex_main(in: Solid, @builtin(view_index) view: u32) -> SolidVaryings {
 
 @fragment
 fn fragment_main(in: SolidVaryings) -> @location(0) vec4f {
-    let to_eye = frame.eyes[in.view].xyz - in.position;
+    let to_eye = frame.views[in.view].eye.xyz - in.position;
     let distance = length(to_eye);
     let n = normalize(in.normal);
     let sun = frame.sun.xyz;
     // From above the sky lights it, from below the sea, which is lit by both.
-    let sea = (frame.sky_light.rgb + frame.sun_light.rgb * max(sun.y, 0.0)) * (frame.deep.rgb + MIRRORED);
+    let sea = (frame.sky_light.rgb + frame.sun_light.rgb * max(sun.y, 0.0)) * (PI * frame.deep.rgb + MIRRORED);
     let daylight = frame.sun_light.rgb * saturate(dot(n, sun)) + mix(sea, frame.sky_light.rgb, 0.5 + 0.5 * n.y);
-    let color = in.color * daylight / 3.14159265;
-    return vec4f(tone_map(haze(color, to_eye / distance, distance)), 1.0);
+    let color = in.color * daylight / PI;
+    return vec4f(tone_map(haze(color, -to_eye / distance, distance)), 1.0);
 }

@@ -19,7 +19,7 @@ fn vertex_main(@builtin(vertex_index) index: u32, @builtin(view_index) view: u32
     let ring = (quad & 1u) + (corner >> 1u);
     let around = f32((quad >> 1u) + (corner & 1u)) * (6.28318531 / SEGMENTS);
     let radii = vec3f(tan(frame.vignette.x), tan(frame.vignette.y), 20.0);
-    let scale = frame.view_scale[view];
+    let scale = frame.views[view].scale;
     var out: Rim;
     out.clip = vec4f(vec2f(cos(around), sin(around)) * radii[ring] * scale.xy + scale.zw, 0.0, 1.0);
     out.out = min(f32(ring), 1.0);

@@ -2,128 +2,149 @@
 // The reasons and the sources are in docs/water.md.
 #include "light.wgsl"
 
-const PI: f32 = 3.14159265;
 // Reflectance of water seen along its normal.
 const F0: f32 = 0.02;
 
 struct Surface {
-    // Sum over cascades of dh/dx and dh/dz.
-    slope: vec2f,
-    // Sum of the squared roughnesses (GGX alpha) of what the maps' mips have averaged away.
+    // Sum over cascades of -dh/dx and -dh/dz.
+    tilt: vec2f,
+    // Sum of the squared roughnesses (GGX alpha) of what the maps' mips have averaged away, the water's own counted once.
     alpha_squared: f32,
     // Sum over cascades of 1 - J now.
     compression: f32,
 }
 
 fn add_gradient(surface: ptr<function, Surface>, texel: vec4f, cascade: u32) {
-    let n = texel.xy * 2.0 - 1.0;
-    let up = sqrt(max(1.0 - dot(n, n), 0.04));
-    let slope = to_world(-n / up, frame.cascades[cascade].axes);
+    // to_world of the normal's level part, 2 texel - 1, in one step.
+    let c = frame.cascades[cascade];
+    let level = to_world(texel.xy, c.twice_axes) + c.middle;
+    (*surface).tilt += level * inverseSqrt(max(1.0 - level.x * level.x - level.y * level.y, 0.04));
     let root = 1.0 - texel.w;
     let alpha = root * root;
-    (*surface).slope += slope;
     (*surface).alpha_squared += alpha * alpha;
     (*surface).compression += max(2.0 - 2.0 * texel.z, 0.0);
 }
 
-fn surface_at(rest: vec2f) -> Surface {
+fn surface_at(in: Varyings) -> Surface {
     var s: Surface;
-    add_gradient(&s, textureSample(gradient_0, oblique, map_coordinates(rest, 0u)), 0u);
+    s.alpha_squared = -frame.sky_light.w;
+    add_gradient(&s, textureSample(gradient_0, oblique, in.maps_01.xy), 0u);
     if CASCADES > 1u {
-        add_gradient(&s, textureSample(gradient_1, oblique, map_coordinates(rest, 1u)), 1u);
+        add_gradient(&s, textureSample(gradient_1, oblique, in.maps_01.zw), 1u);
     }
     if CASCADES > 2u {
-        add_gradient(&s, textureSample(gradient_2, oblique, map_coordinates(rest, 2u)), 2u);
+        add_gradient(&s, textureSample(gradient_2, oblique, in.maps_23.xy), 2u);
     }
     if CASCADES > 3u {
-        add_gradient(&s, textureSample(gradient_3, oblique, map_coordinates(rest, 3u)), 3u);
+        add_gradient(&s, textureSample(gradient_3, oblique, in.maps_23.zw), 3u);
     }
-    s.slope *= frame.deep.w;
     return s;
 }
 
 fn fresnel(cosine: f32) -> f32 {
-    let m = 1.0 - saturate(cosine);
+    let m = saturate(1.0 - cosine);
     let m2 = m * m;
-    return F0 + (1.0 - F0) * m2 * m2 * m;
+    return F0 + (1.0 - F0) * (m2 * m2 * m);
 }
 
-// The mean normal of the facets that can be seen: at grazing angles those that lean towards the viewer, so a rough sea
-// reflects sky from well above the horizon. For Gaussian slopes of variance s2 the mean seen slope is s2 tan(angle),
-// and at most sqrt(pi/2) s.
-fn visible_normal(n: vec3f, v: vec3f, s2: f32) -> vec3f {
-    let cosine = dot(n, v);
-    let across = v - n * cosine;
-    let lean = s2 / (max(cosine, 0.0) + 0.8 * sqrt(s2));
-    return normalize(n + across * lean + v * max(0.02 - cosine, 0.0));
-}
-
-// GGX distribution times Smith visibility.
-fn sun_lobe(n: vec3f, v: vec3f, l: vec3f, alpha_squared: f32) -> f32 {
-    let h = normalize(v + l);
-    let nh = saturate(dot(n, h));
-    let nl = saturate(dot(n, l));
-    let nv = max(dot(n, v), 0.02);
-    let d = nh * nh * (alpha_squared - 1.0) + 1.0;
-    let distribution = alpha_squared / (PI * d * d);
-    let smith = nl * sqrt(nv * nv * (1.0 - alpha_squared) + alpha_squared)
-        + nv * sqrt(nl * nl * (1.0 - alpha_squared) + alpha_squared);
-    return distribution * 0.5 / max(smith, 1.0e-4) * fresnel(dot(v, h)) * nl;
+// GGX distribution times Smith visibility times the cosine towards the sun, from the cosines between normal, view and
+// light alone: the half vector is (v + l) / |v + l|, and |v + l|^2 = 2 + 2 v.l.
+fn sun_lobe(n_v: f32, n_l: f32, v_l: f32, alpha_squared: f32) -> f32 {
+    // The square of v.h, and a little more: never 0.
+    let square = 0.5000005 + 0.5 * v_l;
+    let inverse = inverseSqrt(square);
+    let twice_n_h = (n_v + n_l) * inverse;
+    let lit = saturate(n_l);
+    let seen = max(n_v, 0.02);
+    let rest = 1.0 - alpha_squared;
+    let d = twice_n_h * twice_n_h * (0.25 * alpha_squared - 0.25) + 1.0;
+    let smith = lit * sqrt(seen * seen * rest + alpha_squared)
+        + seen * sqrt(lit * lit * rest + alpha_squared);
+    return fresnel(square * inverse) / (2.0 * PI) * lit * alpha_squared / (d * d * smith);
 }
 
 // Compression that the displacement maps remember: finer than the mesh could carry it here.
-fn remembered(rest: vec2f) -> f32 {
-    var sum = textureSample(displacement_0, tiling, map_coordinates(rest, 0u)).w;
+fn remembered(in: Varyings) -> f32 {
+    var sum = textureSample(displacement_0, tiling, in.maps_01.xy).w;
     if CASCADES > 1u {
-        sum += textureSample(displacement_1, tiling, map_coordinates(rest, 1u)).w;
+        sum += textureSample(displacement_1, tiling, in.maps_01.zw).w;
     }
     if CASCADES > 2u {
-        sum += textureSample(displacement_2, tiling, map_coordinates(rest, 2u)).w;
+        sum += textureSample(displacement_2, tiling, in.maps_23.xy).w;
     }
     if CASCADES > 3u {
-        sum += textureSample(displacement_3, tiling, map_coordinates(rest, 3u)).w;
+        sum += textureSample(displacement_3, tiling, in.maps_23.zw).w;
     }
     return sum;
 }
 
-// Colour of foam (its albedo) and in w how much of the surface it hides: the compression's range, broken up by the
-// pattern. From afar the pattern's mips are grey, and the edge is soft, so that the mean cover stays as it is.
-fn foam_at(rest: vec2f, compression: f32, distance: f32) -> vec4f {
-    let amount = smoothstep(0.0, 1.0, (compression - frame.foam_range.x) * frame.foam_range.y);
-    // A whole number of repeats a patch of the first cascade: the pattern lies still on the water wherever the origin is.
-    let pattern = textureSample(foam_pattern, tiling, map_coordinates(rest, 0u) * frame.foam_range.z).r;
-    let soft = mix(0.14, 0.5, saturate(distance * 0.006));
-    let cover = saturate((pattern + amount - 1.0) / (2.0 * soft) + 0.5) * saturate(amount * 8.0);
-    return vec4f(frame.foam.rgb * (0.7 + 0.3 * pattern), cover);
+struct Foam {
+    // Share of the surface that it hides.
+    cover: f32,
+    // Of its albedo.
+    brightness: f32,
 }
 
+// The compression's range, broken up by the pattern. From afar the pattern's mips are grey, and the edge is soft, so that
+// the mean cover stays as it is.
+fn foam_at(in: Varyings, compression: f32, distance: f32) -> Foam {
+    let range = frame.foam_range;
+    let along = saturate(compression * range.y - range.x);
+    let amount = along * along * (3.0 - 2.0 * along);
+    let gaps = textureSample(foam_pattern, tiling, in.pattern).r;
+    let soft = mix(0.28, 1.0, saturate(distance * 0.006));
+    let cover = saturate((amount - gaps) / soft + 0.5) * saturate(amount * 8.0);
+    return Foam(cover, 1.0 - 0.3 * gaps);
+}
+
+// Cosines and weights are worked out first, and colours added up by them at the end: one number is a third of a colour.
 fn shade(in: Varyings) -> vec3f {
+    let surface = surface_at(in);
+    let square = dot(in.from_eye, in.from_eye);
+    let inverse = inverseSqrt(square);
+    let distance = square * inverse;
     // The centre of a pixel cut by the horizon may lie beyond infinity, where 1/w is negative and what is interpolated
     // comes back from behind.
-    let to_eye = (frame.eyes[in.view].xyz - in.position) * select(-1.0, 1.0, in.clip.w > 0.0);
-    let distance = length(to_eye);
-    let v = to_eye / distance;
-    let surface = surface_at(in.rest);
-    let n = normalize(vec3f(-surface.slope.x, 1.0, -surface.slope.y));
-    let alpha_squared = clamp(surface.alpha_squared - frame.sky_light.w, 0.0004, 0.5);
-    let seen = visible_normal(n, v, 0.5 * alpha_squared);
+    let ray = in.from_eye * select(-inverse, inverse, in.clip.w > 0.0);
+    let far = horizon(ray);
+    let kept = air_keeps(distance);
     let l = frame.sun.xyz;
+    let upright = vec3f(surface.tilt.x, 1.0, surface.tilt.y);
+    let length = inverseSqrt(dot(surface.tilt, surface.tilt) + 1.0);
+    let n_v = -dot(upright, ray) * length;
+    let n_l = dot(upright, l) * length;
+    let v_l = -dot(ray, l);
+    let alpha_squared = max(saturate(surface.alpha_squared), 0.0004);
+    let alpha = sqrt(alpha_squared);
 
-    let reflectance = fresnel(dot(seen, v));
-    let mip = max(frame.air.z + 0.5 * log2(alpha_squared), 0.0);
-    let reflected = sky_radiance(reflect(-v, seen), mip);
-    let glitter = frame.sun_light.rgb * sun_lobe(n, v, l, alpha_squared);
+    // The mean normal of the facets that can be seen, across n + along v: at grazing angles those that lean towards the
+    // viewer, so a rough sea reflects sky from well above the horizon. For Gaussian slopes of variance s2, here half of
+    // alpha squared, the mean seen slope is s2 tan(angle), and at most sqrt(pi/2) s.
+    let lean = 0.5 * alpha_squared / (max(n_v, 0.0) + 0.565685 * alpha);
+    let across = 1.0 - n_v * lean;
+    let along = lean + saturate(0.02 - n_v);
+    // Its cosine towards the viewer, and the square of its length.
+    let towards = across * n_v + along;
+    let seen_square = across * across + along * (towards + across * n_v);
+    let reflectance = fresnel(towards * inverseSqrt(seen_square));
+    let mirrored = upright * (2.0 * towards * across * length) + ray * (seen_square - 2.0 * towards * along);
+    let reflected = sky_radiance(mirrored, frame.air.z + log2(alpha));
 
-    let daylight = frame.sun_light.rgb * saturate(dot(n, l)) + frame.sky_light.rgb;
-    let below = frame.deep.rgb * daylight / PI;
-    let towards_sun = saturate(-dot(l, v));
-    let crest = max(in.position.y, 0.0) * frame.scatter.w;
-    let facing = 0.5 - 0.5 * dot(l, n);
-    let through = frame.scatter.rgb * frame.sun_light.rgb
-        * (crest * towards_sun * towards_sun * facing * facing * facing);
+    let against_sun = saturate(-v_l);
+    let facing = 0.5 - 0.5 * n_l;
+    let both = against_sun * facing;
+    let through = max(in.height, 0.0) * facing * (both * both);
 
-    let white = foam_at(in.rest, remembered(in.rest), distance);
-    let water = mix(below + through, reflected, reflectance) + glitter;
-    let color = mix(water, white.rgb * daylight / PI, white.w);
-    return tone_map(haze(color, v, distance));
+    let foam = foam_at(in, remembered(in), distance);
+    let water = kept - kept * foam.cover;
+    let below = water - water * reflectance;
+    let white = kept * foam.cover * foam.brightness;
+    let glitter = water * sun_lobe(n_v, n_l, v_l, alpha_squared);
+
+    let matt = frame.deep.rgb * below + frame.foam.rgb * white;
+    let of_sun = matt * saturate(n_l) + (frame.scatter.rgb * (through * below) + glitter);
+    return tone_map(
+        frame.sun_light.rgb * of_sun + frame.sky_light.rgb * matt + reflected * (water * reflectance)
+            + far * (1.0 - kept)
+    );
 }

@@ -1,8 +1,8 @@
 //! The lace of foam: a tiling pattern of bubble rafts, made once at the start.
 //!
 //! Worley's cellular noise (1996) at three scales; foam gathers along the walls between cells, where the distances to
-//! the two nearest points are nearly the same. The values are then ranked, so that a fraction a of all texels is above
-//! 1 - a: a cover of a makes that share of the sea white.
+//! the two nearest points are nearly the same. The values are then ranked, so that a fraction a of all texels is below
+//! a: a cover of a makes that share of the sea white, and the rest are gaps.
 
 /// Texels along the side.
 pub const SIZE: usize = 256;
@@ -17,7 +17,7 @@ pub fn texels() -> Vec<u8> {
     ranked.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
     let mut level = vec![0_u8; SIZE * SIZE];
     for (rank, &(_, i)) in ranked.iter().enumerate() {
-        level[i] = u8::try_from(rank * 256 / (SIZE * SIZE)).unwrap_or(u8::MAX);
+        level[i] = u8::MAX - u8::try_from(rank * 256 / (SIZE * SIZE)).unwrap_or(u8::MAX);
     }
     let (mut chain, mut size) = (Vec::new(), SIZE);
     loop {
@@ -89,7 +89,7 @@ mod tests {
     fn a_cover_is_the_share_of_white() {
         let texels = texels();
         for threshold in [32_u8, 128, 224] {
-            let above = texels[..SIZE * SIZE].iter().filter(|&&t| t >= threshold).count();
+            let above = texels[..SIZE * SIZE].iter().filter(|&&t| t <= u8::MAX - threshold).count();
             assert_eq!(above, SIZE * SIZE * (256 - usize::from(threshold)) / 256);
         }
         assert_eq!(texels.len(), (4 * SIZE * SIZE - 1) / 3);

@@ -15,6 +15,7 @@ mod hidden_area;
 mod moment;
 mod motion;
 mod ocean;
+mod patch_grid;
 mod raft;
 mod renderer;
 mod sea_textures;

@@ -1,15 +1,15 @@
 //! The sea's patches and skirt.
 
 use super::counts::DrawCounts;
+use super::patch_grid::{GridVertex, PatchGrid};
 use super::shaders;
 use super::vertex_input::{by_instance, by_vertex, field};
 use crate::gpu::{
     Bindings, Blend, Buffer, DepthUse, Device, GpuError, Pipeline, PipelineInfo, Recorder, Target,
     UploadRing, VertexInput, upload_buffer,
 };
-use crate::lod::{self, Pattern, Selection};
+use crate::lod::{self, Selection};
 use ash::vk;
-use std::collections::BTreeSet;
 use std::ffi::CStr;
 use std::ops::Range;
 use std::sync::Arc;
@@ -58,7 +58,7 @@ impl Ocean {
     ) -> Result<Self, GpuError> {
         let vertex = [
             (shaders::OCEAN_VERTEX_MAIN[cascades - 1], c"vertex_main"),
-            (shaders::SKIRT_VERTEX_MAIN, c"vertex_main"),
+            (shaders::SKIRT_VERTEX_MAIN[cascades - 1], c"vertex_main"),
         ];
         let make = |layer| surface(device, target, bindings, vertex, layer);
         let layers = layers.iter().map(make).collect::<Result<_, GpuError>>()?;
@@ -86,14 +86,13 @@ impl Ocean {
     pub fn draw(
         &self,
         commands: Recorder<'_>,
-        bindings: &Bindings,
         ring: &UploadRing,
         instances: u64,
         selection: &Selection,
     ) -> DrawCounts {
         let mut counts = DrawCounts::default();
         for surface in &self.layers {
-            counts += self.draw_with(surface, commands, bindings, (ring, instances), selection);
+            counts += self.draw_with(surface, commands, (ring, instances), selection);
         }
         counts
     }
@@ -103,7 +102,6 @@ impl Ocean {
         &self,
         [patches, skirt]: &[Pipeline; 2],
         commands: Recorder<'_>,
-        bindings: &Bindings,
         instances: (&UploadRing, u64),
         selection: &Selection,
     ) -> DrawCounts {
@@ -114,7 +112,6 @@ impl Ocean {
         commands.vertex_buffer(1, instances.0.buffer(), instances.1);
         commands.index_buffer(&self.meshes.indices);
         for batch in selection.batches() {
-            bindings.push(commands, u32::from(batch.pattern.bits()));
             let indices = self.meshes.patterns[batch.pattern.index()].clone();
             let (triangles, patches) = (indices.len() as u32 / 3, batch.instances.len() as u32);
             commands.draw_indexed(indices, batch.instances);
@@ -141,23 +138,11 @@ impl Ocean {
 impl Meshes {
     fn new(device: &Arc<Device>, settings: &lod::LodSettings) -> Result<Self, GpuError> {
         let cells = settings.quality.preset().cells;
-        let grid = lod::grid::vertices(cells);
-        let vertices =
-            upload_buffer(device, "grid", bytemuck::cast_slice(&grid), vk::BufferUsageFlags::VERTEX_BUFFER)?;
-        let (mut all, mut patterns, mut pattern_vertices) = (Vec::<u16>::new(), Vec::new(), Vec::new());
-        for pattern in Pattern::all() {
-            let start = all.len() as u32;
-            all.extend(lod::grid::indices(cells, pattern));
-            patterns.push(start..all.len() as u32);
-            let used: BTreeSet<u16> = all[start as usize..].iter().copied().collect();
-            pattern_vertices.push(used.len() as u32);
-        }
-        let indices = upload_buffer(
-            device,
-            "patterns",
-            bytemuck::cast_slice(&all),
-            vk::BufferUsageFlags::INDEX_BUFFER,
-        )?;
+        let PatchGrid { vertices, indices, patterns, pattern_vertices } = PatchGrid::new(cells);
+        let usage = vk::BufferUsageFlags::VERTEX_BUFFER;
+        let vertices = upload_buffer(device, "grid", bytemuck::cast_slice(&vertices), usage)?;
+        let usage = vk::BufferUsageFlags::INDEX_BUFFER;
+        let indices = upload_buffer(device, "patterns", bytemuck::cast_slice(&indices), usage)?;
         let (skirt, skirt_indices) = lod::skirt(settings.size, settings.skirt_extent);
         let skirt_vertices = upload_buffer(
             device,
@@ -205,13 +190,15 @@ pub fn surface(
     Ok([make("patches", vertex[0], PATCH_INPUT)?, make("skirt", vertex[1], SKIRT_INPUT)?])
 }
 
-/// `Patch` of `shaders/patch.wgsl`: a grid vertex, and an instance of [`lod::Instance`].
+/// `Patch` of `shaders/patch.wgsl`: a [`GridVertex`], and an instance of [`lod::Instance`].
 const PATCH_INPUT: VertexInput<'static> = VertexInput {
-    bindings: &[by_vertex(0, 4), by_instance(1, size_of::<lod::Instance>())],
+    bindings: &[by_vertex(0, size_of::<GridVertex>()), by_instance(1, size_of::<lod::Instance>())],
     attributes: &[
-        field(0, 0, vk::Format::R16G16_UINT, 0),
-        field(1, 1, vk::Format::R32G32B32A32_SFLOAT, 0),
-        field(2, 1, vk::Format::R32G32B32A32_SFLOAT, 16),
+        field(0, 0, vk::Format::R16G16B16A16_SFLOAT, 0),
+        field(1, 0, vk::Format::R8_UNORM, 12),
+        field(2, 0, vk::Format::R8G8B8A8_UNORM, 8),
+        field(3, 1, vk::Format::R32G32B32A32_SFLOAT, 0),
+        field(4, 1, vk::Format::R32G32B32A32_SFLOAT, 16),
     ],
 };
 

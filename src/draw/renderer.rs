@@ -14,7 +14,7 @@ use super::shaders::BINDINGS;
 use super::sky::Sky;
 use super::sky_map::{self, SkyMap};
 use super::solids::{Solids, Uploaded};
-use super::uniforms::{Frame, Spacing};
+use super::uniforms::{Constant, Frame, Spacing};
 use super::vignette::Vignette;
 use crate::gpu::{
     Bindings, Device, FRAMES_IN_FLIGHT, GpuError, Image, ImageInfo, Recorder, Resource, Sampler, Target,
@@ -54,6 +54,7 @@ pub struct Renderer {
     tree: Quadtree,
     frusta: Vec<Frustum>,
     still: Frame,
+    constant: Constant,
     ring: UploadRing,
     uniform_align: u64,
     textures: Vec<SeaTextures>,
@@ -76,8 +77,8 @@ impl Renderer {
     ) -> Result<Self, DrawError> {
         let cascades = scene.sea.cascades.len();
         let tree = Quadtree::new(&scene.lod)?;
-        let (cells, spacing) = (tree.preset().cells, spacing(&tree));
-        let still = Frame::still(scene, sky_map, scene.sea.expected_rms_height(), cells, spacing);
+        let spacing = spacing(&tree);
+        let still = Frame::still(scene, sky_map, scene.sea.expected_rms_height(), spacing);
         let limits = &device.physical.limits;
         let uniform_align = limits.min_uniform_buffer_offset_alignment.max(16);
         let share = SeaTextures::bytes(&scene.sea)
@@ -126,6 +127,7 @@ impl Renderer {
             tree,
             frusta: Vec::with_capacity(2),
             still,
+            constant: Constant { growth: spacing.per_metre, detail: scene.water.detail },
             ring,
             uniform_align,
             textures,
@@ -154,7 +156,7 @@ impl Renderer {
         let selection = self.tree.select(head, &self.frusta);
         self.ring.begin(slot as u64);
         let origin = DVec3::new(selection.origin().x, 0.0, selection.origin().y);
-        self.still.turn(moment, origin);
+        self.still.turn(moment, origin, self.constant);
         self.latest = None;
         let before = self.motion.as_ref().and_then(|motion| motion.before(slot));
         self.still.look_back(before.map_or(eyes, |before| before.eyes), origin);
@@ -177,7 +179,7 @@ impl Renderer {
         if let Some(own) = &self.solids {
             counts += own.draw(commands, &self.ring, &solids);
         }
-        counts += self.ocean.draw(commands, &self.bindings, &self.ring, instances, selection);
+        counts += self.ocean.draw(commands, &self.ring, instances, selection);
         if let Some(sky) = &self.sky {
             counts += sky.draw(commands);
         }
@@ -228,7 +230,7 @@ impl Renderer {
             }
             let instances = (&self.ring, latest.instances);
             let selection = self.tree.selection();
-            counts += self.ocean.draw_with(&motion.surface, commands, &self.bindings, instances, selection);
+            counts += self.ocean.draw_with(&motion.surface, commands, instances, selection);
             counts += motion.draw_sky(commands);
         }
         target.end(commands);
@@ -262,7 +264,9 @@ impl Renderer {
         let settings = LodSettings { quality, ..scene.lod };
         let tree = Quadtree::new(&settings)?;
         self.ocean.set_meshes(device, &settings)?;
-        self.still.set_lod(scene, tree.preset().cells, spacing(&tree));
+        let spacing = spacing(&tree);
+        self.still.set_lod(scene, spacing);
+        self.constant.growth = spacing.per_metre;
         (self.tree, self.latest) = (tree, None);
         Ok(())
     }

@@ -40,7 +40,7 @@ pub enum Resource<'a> {
 
 /// The set layout, the pipeline layout and the sets.
 pub struct Bindings {
-    /// Layout of every pipeline: the one set, and one `u32` of immediate data for the vertex stage.
+    /// Layout of every pipeline: the one set.
     pub pipeline_layout: vk::PipelineLayout,
     set_layout: vk::DescriptorSetLayout,
     pool: vk::DescriptorPool,
@@ -48,9 +48,6 @@ pub struct Bindings {
     kinds: &'static [(u32, BindingKind)],
     device: Arc<Device>,
 }
-
-/// Bytes of immediate data.
-const IMMEDIATE: u32 = 4;
 
 impl Bindings {
     /// Makes `count` empty sets of the bindings in `kinds`.
@@ -86,10 +83,7 @@ impl Bindings {
         bindings.set_layout =
             unsafe { device.raw.create_descriptor_set_layout(&info, None) }.doing("creating a set layout")?;
         let layouts = [bindings.set_layout];
-        let ranges =
-            [vk::PushConstantRange::default().stage_flags(vk::ShaderStageFlags::VERTEX).size(IMMEDIATE)];
-        let info =
-            vk::PipelineLayoutCreateInfo::default().set_layouts(&layouts).push_constant_ranges(&ranges);
+        let info = vk::PipelineLayoutCreateInfo::default().set_layouts(&layouts);
         // SAFETY: as above.
         bindings.pipeline_layout =
             unsafe { device.raw.create_pipeline_layout(&info, None) }.doing("creating a pipeline layout")?;
@@ -154,16 +148,6 @@ impl Bindings {
                 &[self.sets[index]],
                 &[offset],
             );
-        }
-    }
-
-    /// Sets the `u32` of immediate data.
-    pub fn push(&self, commands: Recorder<'_>, value: u32) {
-        let bytes = value.to_ne_bytes();
-        // SAFETY: the layout declares these four bytes for the vertex stage.
-        unsafe {
-            let stage = vk::ShaderStageFlags::VERTEX;
-            self.device.raw.cmd_push_constants(commands.raw, self.pipeline_layout, stage, 0, &bytes);
         }
     }
 }
