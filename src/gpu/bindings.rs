@@ -80,13 +80,13 @@ impl Bindings {
             device: Arc::clone(device),
         };
         // SAFETY: the device lives; each structure refers to locals that live past the call.
-        bindings.set_layout =
-            unsafe { device.raw.create_descriptor_set_layout(&info, None) }.doing("creating a set layout")?;
+        let made = unsafe { device.raw.create_descriptor_set_layout(&info, None) };
+        bindings.set_layout = made.doing("creating a set layout")?;
         let layouts = [bindings.set_layout];
         let info = vk::PipelineLayoutCreateInfo::default().set_layouts(&layouts);
         // SAFETY: as above.
-        bindings.pipeline_layout =
-            unsafe { device.raw.create_pipeline_layout(&info, None) }.doing("creating a pipeline layout")?;
+        let made = unsafe { device.raw.create_pipeline_layout(&info, None) };
+        bindings.pipeline_layout = made.doing("creating a pipeline layout")?;
         let count = u32::try_from(count).unwrap_or(u32::MAX);
         let sizes: Vec<_> = kinds
             .iter()
@@ -94,14 +94,14 @@ impl Bindings {
             .collect();
         let info = vk::DescriptorPoolCreateInfo::default().max_sets(count).pool_sizes(&sizes);
         // SAFETY: as above.
-        bindings.pool =
-            unsafe { device.raw.create_descriptor_pool(&info, None) }.doing("creating a descriptor pool")?;
+        let made = unsafe { device.raw.create_descriptor_pool(&info, None) };
+        bindings.pool = made.doing("creating a descriptor pool")?;
         let layouts = vec![bindings.set_layout; count as usize];
         let info =
             vk::DescriptorSetAllocateInfo::default().descriptor_pool(bindings.pool).set_layouts(&layouts);
         // SAFETY: as above; the pool has room for exactly these.
-        bindings.sets =
-            unsafe { device.raw.allocate_descriptor_sets(&info) }.doing("allocating descriptor sets")?;
+        let made = unsafe { device.raw.allocate_descriptor_sets(&info) };
+        bindings.sets = made.doing("allocating descriptor sets")?;
         device.name(bindings.pipeline_layout, "ocean layout");
         Ok(bindings)
     }

@@ -46,8 +46,8 @@ impl Commands {
         };
         let allocate = vk::CommandBufferAllocateInfo::default().command_pool(pool).command_buffer_count(1);
         // SAFETY: the pool is ours.
-        let buffers =
-            unsafe { device.raw.allocate_command_buffers(&allocate) }.doing("making a command buffer")?;
+        let buffers = unsafe { device.raw.allocate_command_buffers(&allocate) };
+        let buffers = buffers.doing("making a command buffer")?;
         commands.raw = buffers[0];
         let info = vk::FenceCreateInfo::default();
         // SAFETY: the device lives.

@@ -169,8 +169,8 @@ impl<'a> Module<'a> {
             .collect();
         let info = vk::ShaderModuleCreateInfo::default().code(&words);
         // SAFETY: the words were written and validated by naga when Swell was built.
-        let raw =
-            unsafe { device.raw.create_shader_module(&info, None) }.doing("creating a shader module")?;
+        let raw = unsafe { device.raw.create_shader_module(&info, None) };
+        let raw = raw.doing("creating a shader module")?;
         Ok(Self { raw, device })
     }
 }

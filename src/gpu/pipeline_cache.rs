@@ -35,8 +35,8 @@ impl PipelineCache {
         let data = verified(&bytes).unwrap_or_default();
         let info = vk::PipelineCacheCreateInfo::default().initial_data(data);
         // SAFETY: the device lives and the data is what a driver once gave; drivers reject what is not theirs.
-        let raw =
-            unsafe { device.create_pipeline_cache(&info, None) }.doing("creating the pipeline cache")?;
+        let raw = unsafe { device.create_pipeline_cache(&info, None) };
+        let raw = raw.doing("creating the pipeline cache")?;
         Ok(Self { raw, file, stored: AtomicUsize::new(data.len()) })
     }
 

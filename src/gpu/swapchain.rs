@@ -129,8 +129,8 @@ impl Swapchain {
             _surface: Rc::clone(surface),
         };
         // SAFETY: the swapchain is ours.
-        swapchain.images =
-            unsafe { swapchain.functions.get_swapchain_images(raw) }.doing("listing a window's images")?;
+        let images = unsafe { swapchain.functions.get_swapchain_images(raw) };
+        swapchain.images = images.doing("listing a window's images")?;
         // SAFETY: the device lives.
         swapchain.acquired = unsafe { device.raw.create_fence(&vk::FenceCreateInfo::default(), None) }
             .doing("creating a fence")?;
@@ -138,8 +138,8 @@ impl Swapchain {
             device.name(image, &format!("window {index}"));
             let info = vk::SemaphoreCreateInfo::default();
             // SAFETY: the device lives.
-            let semaphore =
-                unsafe { device.raw.create_semaphore(&info, None) }.doing("creating a semaphore")?;
+            let semaphore = unsafe { device.raw.create_semaphore(&info, None) };
+            let semaphore = semaphore.doing("creating a semaphore")?;
             device.name(semaphore, &format!("window {index} filled"));
             swapchain.filled.push(semaphore);
         }
