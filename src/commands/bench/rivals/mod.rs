@@ -34,7 +34,8 @@ fn label(name: &str, n: usize) -> Label {
     Label { name: name.to_owned(), n, cascades: 1, threads: 1, isa: "" }
 }
 
-#[cfg(all(test, feature = "rivals"))]
+#[cfg(test)]
+#[cfg(feature = "rivals")]
 mod tests {
     use super::*;
     use crate::commands::bench::{fields::spectrum, sea};
