@@ -1,6 +1,7 @@
 //! The height query against the maps that are drawn.
 mod sea_common;
 use sea_common::{cascades, maps, settings};
+use swell::sea::simd::Isa;
 use swell::sea::{Query, SeaMaps, Spectrum, Surface};
 
 #[test]
@@ -108,6 +109,39 @@ fn many_at_a_time_are_answered_as_one_alone() {
         for (alone, height) in alone[3..].iter().zip(later) {
             assert!((alone.height() - height).abs() < 1e-9, "{alone:?} {height}");
         }
+    }
+}
+
+#[test]
+fn all_instruction_sets_answer_alike() {
+    for sea in [settings(Spectrum::Jonswap), cascades()] {
+        let maps = maps(&sea, 31.0);
+        let points = points();
+        let ask = |isa| {
+            let query = Query::with_isa(&maps, isa);
+            let mut surfaces = vec![Surface::at_rest(&maps, 0.0, 0.0); points.len()];
+            query.above_many(&points, &mut surfaces);
+            let mut heights = vec![0.0; points.len()];
+            query.heights(&points, &mut heights);
+            (surfaces, heights)
+        };
+        let best = ask(Isa::best());
+        for isa in Isa::available() {
+            assert!(ask(isa) == best, "{isa} answers differently");
+        }
+    }
+}
+
+/// A long search costs a hundred times what most points do.
+#[test]
+fn nearly_all_points_are_found_without_a_search() {
+    for sea in [settings(Spectrum::Jonswap), cascades()] {
+        let maps = maps(&sea, 31.0);
+        let points = points();
+        let mut surfaces = vec![Surface::at_rest(&maps, 0.0, 0.0); points.len()];
+        Query::new(&maps).above_many(&points, &mut surfaces);
+        let searched = surfaces.iter().filter(|surface| surface.iterations > 6).count();
+        assert!(searched * 100 < points.len(), "{searched} of {} points were searched for", points.len());
     }
 }
 

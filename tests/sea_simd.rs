@@ -6,7 +6,7 @@ use sea_common::{cascades, settings};
 use swell::jobs::Workers;
 use swell::sea::gradient::{ABREAST, inverse_sqrts};
 use swell::sea::simd::{
-    Aligned, Channels, ChannelsMut, Float, Isa, Kernel, MAX_LANES, Simd, Strided, StridedMut,
+    Aligned, Channels, ChannelsMut, Float, Isa, Kernel, MAX_LANES, Simd, Strided, StridedMut, Texels,
 };
 use swell::sea::{Sea, SeaMaps, SeaSettings, Spectrum};
 
@@ -52,6 +52,46 @@ impl Kernel for Shuffles {
         let truth: Vec<f32> = indices[..l].iter().map(|&index| f32::from(index)).collect();
         assert_eq!(lanes(first), truth);
         assert_eq!(lanes(-second), truth);
+        assert_eq!(
+            lanes(count(simd, 1) / simd.splat(3.0)),
+            (1..=l).map(|i| i as f32 / 3.0).collect::<Vec<_>>()
+        );
+    }
+}
+
+/// Texels read here and there: all finite halves, in every place of a texel.
+struct Reads<'a>(&'a [[f16; 4]]);
+
+impl Kernel for Reads<'_> {
+    type Output = ();
+    #[inline(always)]
+    fn run<S: Simd>(self, simd: S) {
+        let map = Texels::new(self.0);
+        for first in 0..self.0.len() as u32 {
+            // Lanes far apart, the last ones beyond the end: indices are modulo the number of texels.
+            let indices: [u32; MAX_LANES] = std::array::from_fn(|lane| first + 4099 * lane as u32);
+            let got = simd.texels(map, &indices).map(lanes);
+            for (place, got) in got.iter().enumerate() {
+                for (lane, got) in got.iter().enumerate() {
+                    let truth = self.0[indices[lane] as usize % self.0.len()][place].to_f32();
+                    assert_eq!(got.to_bits(), truth.to_bits(), "lane {lane}, number {place}: {truth}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn texels_are_read_at_any_place() {
+    let half = |bits: u16| {
+        let half = f16::from_bits(bits);
+        if half.is_finite() { half } else { f16::from_bits(bits ^ 0x4000) }
+    };
+    let texels: Vec<[f16; 4]> = (0..=u16::MAX)
+        .map(|bits| [half(bits), half(bits.wrapping_mul(3)), half(!bits), half(bits.rotate_left(5))])
+        .collect();
+    for isa in Isa::available() {
+        isa.run(Reads(&texels));
     }
 }
 
@@ -162,7 +202,9 @@ impl Kernel for Beyond {
             8 => drop(Channels::<S, 2>::new(simd, &numbers, 0, S::LANES, 1).load(0, 2)),
             9 => drop(ChannelsMut::<S, 2>::new(simd, &mut numbers, 0, usize::MAX, 1)),
             10 => ChannelsMut::<S, 2>::new(simd, &mut numbers, 0, S::LANES, 1).store(1, 0, simd.splat(1.0)),
-            _ => drop(simd.pairs(&[[0.0; 2]; 3], &[3; MAX_LANES])),
+            11 => drop(simd.pairs(&[[0.0; 2]; 3], &[3; MAX_LANES])),
+            12 => drop(simd.texels(Texels::new(&[[f16::ZERO; 4]; 4]), &[3; MAX_LANES][..S::LANES - 1])),
+            _ => drop(Texels::new(&[[f16::ZERO; 4]; 3])),
         }
     }
 }
@@ -170,7 +212,7 @@ impl Kernel for Beyond {
 #[test]
 fn nothing_is_read_or_written_beyond_a_slice() {
     for isa in Isa::available() {
-        for case in 0..12 {
+        for case in 0..14 {
             let caught = std::panic::catch_unwind(|| isa.run(Beyond(case)));
             assert!(caught.is_err(), "{isa}, case {case}");
         }

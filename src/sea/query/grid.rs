@@ -1,22 +1,23 @@
 //! A cascade's displacement map, with all that a look at it needs worked out once.
-use crate::sea::maps::CascadeMaps;
+use crate::sea::{
+    maps::CascadeMaps,
+    simd::{MOVED_HALF, REBIAS, Texels},
+};
 use half::f16;
 
 /// 1.5 * 2^52: adding it to a number below 2^51 rounds that to an integer and leaves the integer, modulo any power of
 /// two, in the lowest bits of the sum. Vector instruction sets of all ages can do that, and not all of them can floor.
 const ROUND: f64 = 6_755_399_441_055_744.0;
-/// 2^112, what a half's exponent falls short of a float's.
-const REBIAS: f32 = 5_192_296_858_534_827_628_530_496_329_220_096.0;
 
 /// Level 0 of one cascade.
 #[derive(Clone, Copy, Debug)]
 pub struct Grid<'a> {
     /// (Du, h, Dv, compression), N x N, N a power of two.
-    texels: &'a [[f16; 4]],
+    pub texels: Texels<'a>,
     /// N - 1.
-    mask: u64,
+    pub mask: u64,
     /// log2 N.
-    shift: u32,
+    pub shift: u32,
     /// N / L.
     pub per_metre: f64,
     /// Cosine and sine of the cascade's rotation.
@@ -28,7 +29,7 @@ pub struct Grid<'a> {
 impl<'a> Grid<'a> {
     /// A sea at rest, of one texel.
     pub const FLAT: Grid<'static> = Grid {
-        texels: &[[f16::ZERO; 4]],
+        texels: Texels::new(&[[f16::ZERO; 4]]),
         mask: 0,
         shift: 0,
         per_metre: 1.0,
@@ -43,7 +44,7 @@ impl<'a> Grid<'a> {
         let (sin, cos) = libm::sincos(maps.rotation);
         let per_metre = n as f64 / maps.patch_size;
         Self {
-            texels: &maps.displacement[..n * n],
+            texels: Texels::new(&maps.displacement[..n * n]),
             mask: n as u64 - 1,
             shift: n.trailing_zeros(),
             per_metre,
@@ -68,16 +69,17 @@ impl<'a> Grid<'a> {
 
     /// Indices of the corners of a cell: itself, the next along u, along v, along both.
     #[inline(always)]
-    pub fn corners(&self, column: u64, row: u64) -> [u64; 4] {
-        let [right, below] = [column, row].map(|index| (index + 1) & self.mask);
-        let [row, below] = [row, below].map(|index| index << self.shift);
+    pub fn corners(&self, column: u32, row: u32) -> [u32; 4] {
+        let mask = self.mask as u32;
+        let (right, below) = ((column + 1) & mask, ((row + 1) & mask) << self.shift);
+        let row = row << self.shift;
         [row | column, row | right, below | column, below | right]
     }
 
     /// The 16-bit floats of a texel, Du in the lowest bits.
     #[inline(always)]
     pub fn bits(&self, index: u64) -> u64 {
-        bytemuck::cast(self.texels[index as usize])
+        bytemuck::cast(self.texels.get(index as u32))
     }
 
     /// A texel's values. Column and row may be any, on the torus.
@@ -92,7 +94,7 @@ impl<'a> Grid<'a> {
 /// them. Plain arithmetic, so that the compiler can do several at once.
 #[inline(always)]
 pub fn single(bits: u32) -> f32 {
-    let moved = ((bits << 16).cast_signed() >> 3).cast_unsigned() & 0x8fff_e000;
+    let moved = ((bits << 16).cast_signed() >> 3).cast_unsigned() & MOVED_HALF;
     f32::from_bits(moved) * REBIAS
 }
 

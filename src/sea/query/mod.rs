@@ -1,4 +1,5 @@
 //! The surface at a point, from the very maps that are drawn. See `docs/query.md`.
+mod approach;
 mod grid;
 mod newton;
 mod sample;
@@ -8,9 +9,10 @@ use super::{
     foam::foam,
     maps::SeaMaps,
     settings::{FoamSettings, MAX_CASCADES},
+    simd::{Isa, MAX_LANES},
 };
 use grid::Grid;
-use newton::{LANES, Newton};
+use newton::{Block, Solve};
 use sample::{Sample, norm, normal};
 use search::search;
 
@@ -18,6 +20,11 @@ use search::search;
 pub const MAX_ITERATIONS: u32 = 64;
 /// Horizontal error, metres, at which an inversion is content.
 pub const TOLERANCE: f64 = 1e-7;
+
+/// Points that are looked for together.
+const TOGETHER: usize = 64;
+/// Points of which only one is asked for: the longest vector.
+const ALONE: usize = MAX_LANES;
 
 /// A point of the sea's surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -67,6 +74,7 @@ pub struct Query<'a> {
     /// How many there are.
     count: usize,
     foam: &'a FoamSettings,
+    isa: Isa,
 }
 
 /// How a cascade lies to the first one.
@@ -81,18 +89,24 @@ struct Frame {
 impl<'a> Query<'a> {
     /// Works out what all queries share.
     pub fn new(maps: &'a SeaMaps) -> Self {
+        Self::with_isa(maps, Isa::best())
+    }
+
+    /// The same on another instruction set, with the same answers to the bit.
+    pub fn with_isa(maps: &'a SeaMaps, isa: Isa) -> Self {
         let mut grids = [Grid::FLAT; MAX_CASCADES];
         for (grid, maps) in grids.iter_mut().zip(&maps.cascades) {
             *grid = Grid::new(maps);
         }
         let [cos, sin] = grids[0].turn;
-        let frames = grids.each_ref().map(|grid| {
+        let mut frames = grids.each_ref().map(|grid| {
             let [own_cos, own_sin] = grid.turn;
             let turn = [own_cos * cos + own_sin * sin, own_sin * cos - own_cos * sin];
             Frame { turn, follow: turn.map(|part| part * grid.per_metre / grids[0].per_metre) }
         });
+        frames[0] = Frame { turn: [1.0, 0.0], follow: [1.0, 0.0] };
         // No cascade at all is one that is flat.
-        Self { grids, frames, count: maps.cascades.len().clamp(1, MAX_CASCADES), foam: &maps.foam }
+        Self { grids, frames, count: maps.cascades.len().clamp(1, MAX_CASCADES), foam: &maps.foam, isa }
     }
 
     /// The point of the surface whose rest position is (`x`, `z`).
@@ -106,9 +120,9 @@ impl<'a> Query<'a> {
     /// damped steps and from several places. At most [`MAX_ITERATIONS`] steps in all; `residual` says how well they
     /// went. Where the sea has folded over (J < 0) there are several such points and one of them is returned.
     pub fn above(&self, x: f64, z: f64) -> Surface {
-        let mut newton = Newton::<1>::new(self);
-        newton.solve(&[[x], [z]]);
-        self.found(&newton, 0, [x, z])
+        let mut block = Block::<ALONE>::new(self);
+        self.isa.run(Solve { block: &mut block, targets: &[[x; ALONE], [z; ALONE]] });
+        self.found(&block, 0, [x, z])
     }
 
     /// [`Self::above`] for each of `points`, with the same answers to the bit, sooner: several at a time.
@@ -116,11 +130,14 @@ impl<'a> Query<'a> {
     /// # Panics
     /// When `points` and `surfaces` differ in length.
     pub fn above_many(&self, points: &[[f64; 2]], surfaces: &mut [Surface]) {
-        self.in_lanes(points, surfaces, |newton, targets, surfaces| {
-            for (lane, (surface, &target)) in surfaces.iter_mut().zip(targets).enumerate() {
-                *surface = self.found(newton, lane, target);
+        assert_eq!(points.len(), surfaces.len(), "one surface for each point");
+        let mut block = Block::<TOGETHER>::new(self);
+        for (points, surfaces) in points.chunks(TOGETHER).zip(surfaces.chunks_mut(TOGETHER)) {
+            self.isa.run(Solve { block: &mut block, targets: &targets(points) });
+            for (i, (surface, &target)) in surfaces.iter_mut().zip(points).enumerate() {
+                *surface = self.found(&block, i, target);
             }
-        });
+        }
     }
 
     /// Heights alone of [`Self::above`] for each of `points`, metres, to the last few bits of a double: the least that
@@ -129,57 +146,29 @@ impl<'a> Query<'a> {
     /// # Panics
     /// When `points` and `heights` differ in length.
     pub fn heights(&self, points: &[[f64; 2]], heights: &mut [f64]) {
-        self.in_lanes(points, heights, |newton, targets, heights| {
-            for (height, solved) in heights.iter_mut().zip(newton.heights()) {
-                *height = solved;
-            }
-            if (0..LANES).any(|lane| !newton.found(lane)) {
-                self.search_heights(newton, targets, heights);
-            }
-        });
-    }
-
-    #[cold]
-    fn search_heights(&self, newton: &Newton<'_, 'a, LANES>, targets: &[[f64; 2]], heights: &mut [f64]) {
-        for (lane, (height, &target)) in heights.iter_mut().zip(targets).enumerate() {
-            if !newton.found(lane) {
-                let (q, _) = search(self, target, newton.iterations(lane));
-                *height = Sample::at(self, q).value.displacement[1];
+        assert_eq!(points.len(), heights.len(), "one height for each point");
+        let mut block = Block::<TOGETHER>::new(self);
+        for (points, heights) in points.chunks(TOGETHER).zip(heights.chunks_mut(TOGETHER)) {
+            self.isa.run(Solve { block: &mut block, targets: &targets(points) });
+            heights.copy_from_slice(&block.heights()[..heights.len()]);
+            for (i, (height, &target)) in heights.iter_mut().zip(points).enumerate() {
+                if !block.found(i) {
+                    let (q, _) = search(self, target, block.looks(i));
+                    *height = Sample::at(self, q).value.displacement[1];
+                }
             }
         }
     }
 
-    /// Solves [`LANES`] points at a time and has `take` fill their answers.
-    #[inline(always)]
-    fn in_lanes<T>(
-        &self,
-        points: &[[f64; 2]],
-        answers: &mut [T],
-        mut take: impl FnMut(&Newton<'_, 'a, LANES>, &[[f64; 2]], &mut [T]),
-    ) {
-        assert_eq!(points.len(), answers.len(), "one answer for each point");
-        let mut newton = Newton::new(self);
-        for (points, answers) in points.chunks(LANES).zip(answers.chunks_mut(LANES)) {
-            let mut targets = [[0.0; LANES]; 2];
-            for lane in 0..LANES {
-                // Idle lanes ask what the last one does.
-                [targets[0][lane], targets[1][lane]] = points[lane.min(points.len() - 1)];
-            }
-            newton.solve(&targets);
-            take(&newton, points, answers);
-        }
-    }
-
-    /// The surface at what a lane has come to, or what a search finds.
-    fn found<const L: usize>(&self, newton: &Newton<'_, 'a, L>, lane: usize, target: [f64; 2]) -> Surface {
-        let iterations = newton.iterations(lane);
-        let (q, iterations) = if newton.found(lane) {
-            let [x, z] = newton.offset(lane);
-            ([target[0] + x, target[1] + z], iterations)
+    /// The surface at what a block has come to, or what a search finds.
+    fn found<const P: usize>(&self, block: &Block<'_, 'a, P>, i: usize, target: [f64; 2]) -> Surface {
+        let (q, looks) = if block.found(i) {
+            let [x, z] = block.offset(i);
+            ([target[0] + x, target[1] + z], block.looks(i))
         } else {
-            search(self, target, iterations)
+            search(self, target, block.looks(i))
         };
-        self.surface(q, target, iterations)
+        self.surface(q, target, looks)
     }
 
     fn surface(&self, q: [f64; 2], target: [f64; 2], iterations: u32) -> Surface {
@@ -208,4 +197,14 @@ impl<'a> Query<'a> {
     fn others(&self) -> impl Iterator<Item = (&Grid<'a>, &Frame)> {
         self.grids().iter().zip(&self.frames).skip(1)
     }
+}
+
+/// World x of all and world z of all; idle places ask what the last point does.
+#[inline(always)]
+fn targets(points: &[[f64; 2]]) -> [[f64; TOGETHER]; 2] {
+    let mut targets = [[0.0; TOGETHER]; 2];
+    for i in 0..TOGETHER {
+        [targets[0][i], targets[1][i]] = points[i.min(points.len() - 1)];
+    }
+    targets
 }

@@ -1,8 +1,12 @@
 //! Eight lanes: AVX2 with fused multiply-add and half-precision conversion (Haswell, Zen and later).
-use super::{Float, Kernel, SEED, Simd, x86};
+use super::{
+    Float, Kernel, SEED, Simd, Texels,
+    texels::{MOVED_HALF, REBIAS},
+    x86,
+};
 use half::f16;
 use std::arch::x86_64::*;
-use std::ops::{Add, Mul, Neg, Sub};
+use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// AVX2: a value exists only where the processor has it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -74,6 +78,16 @@ impl Simd for Avx2 {
     }
 
     #[inline(always)]
+    fn texels(self, map: Texels<'_>, indices: &[u32]) -> [F32x8; 3] {
+        let (low, high) = (x86::texels(map, &indices[..4]), x86::texels(map, &indices[4..LANES]));
+        // SAFETY: `self` exists only with AVX2.
+        unsafe {
+            let (front, back) = (_mm256_set_m128(high[0], low[0]), _mm256_set_m128(high[1], low[1]));
+            [lower(front), upper(front), lower(back)]
+        }
+    }
+
+    #[inline(always)]
     fn transpose(self, rows: &mut [F32x8]) {
         let rows = &mut rows[..LANES];
         // SAFETY: `self` exists only with AVX2.
@@ -96,6 +110,24 @@ impl Simd for Avx2 {
                 rows[4 + i] = F32x8(_mm256_permute2f128_ps::<0x31>(upper, lower));
             }
         }
+    }
+}
+
+/// The 16-bit floats in the lower halves of all lanes.
+#[inline(always)]
+fn lower(lanes: __m256) -> F32x8 {
+    // SAFETY: the callers are operations of vectors, which exist only with AVX2.
+    upper(unsafe { _mm256_castsi256_ps(_mm256_slli_epi32::<16>(_mm256_castps_si256(lanes))) })
+}
+
+/// Those in the upper halves: sign and exponent go where a single has them.
+#[inline(always)]
+fn upper(lanes: __m256) -> F32x8 {
+    // SAFETY: the callers are operations of vectors, which exist only with AVX2.
+    unsafe {
+        let moved = _mm256_srai_epi32::<3>(_mm256_castps_si256(lanes));
+        let kept = _mm256_and_si256(moved, _mm256_set1_epi32(MOVED_HALF as i32));
+        F32x8(_mm256_mul_ps(_mm256_castsi256_ps(kept), _mm256_set1_ps(REBIAS)))
     }
 }
 
@@ -123,6 +155,15 @@ impl Mul for F32x8 {
     fn mul(self, other: Self) -> Self {
         // SAFETY: vectors exist only with AVX2.
         Self(unsafe { _mm256_mul_ps(self.0, other.0) })
+    }
+}
+
+impl Div for F32x8 {
+    type Output = Self;
+    #[inline(always)]
+    fn div(self, other: Self) -> Self {
+        // SAFETY: vectors exist only with AVX2.
+        Self(unsafe { _mm256_div_ps(self.0, other.0) })
     }
 }
 

@@ -2,7 +2,7 @@
 //!
 //! Sixteen lanes were tried in columns and short rows, and are slower where the processor halves 512-bit arithmetic, see `docs/performance.md`. The
 //! operations are AVX2's; compiled here, they have 32 registers.
-use super::{Kernel, Simd, avx2::F32x8, avx512_wide::Avx512Wide, x86};
+use super::{Kernel, Simd, Texels, avx2::F32x8, avx512_wide::Avx512Wide, x86};
 
 /// AVX-512: a value exists only where the processor has it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -59,6 +59,11 @@ impl Simd for Avx512 {
     #[inline(always)]
     fn pairs(self, table: &[[f32; 2]], indices: &[u16]) -> [F32x8; 2] {
         self.0.pairs(table, indices)
+    }
+
+    #[inline(always)]
+    fn texels(self, map: Texels<'_>, indices: &[u32]) -> [F32x8; 3] {
+        self.0.texels(map, indices)
     }
 
     #[inline(always)]

@@ -1,8 +1,13 @@
 //! Sixteen lanes of AVX-512, for rows of 256 and more and for long straight work on every texel: half as many instructions.
-use super::{Float, Kernel, SEED, Simd, avx512::Avx512, x86};
+use super::{
+    Float, Kernel, SEED, Simd, Texels,
+    avx512::Avx512,
+    texels::{MOVED_HALF, REBIAS},
+    x86,
+};
 use half::f16;
 use std::arch::x86_64::*;
-use std::ops::{Add, Mul, Neg, Sub};
+use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// AVX-512 with its longest vectors: a value exists only where the processor has it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -84,6 +89,15 @@ impl Simd for Avx512Wide {
     }
 
     #[inline(always)]
+    fn texels(self, map: Texels<'_>, indices: &[u32]) -> [F32x16; 3] {
+        let (first, second) = (x86::texels(map, &indices[..4]), x86::texels(map, &indices[4..8]));
+        let (third, fourth) = (x86::texels(map, &indices[8..12]), x86::texels(map, &indices[12..LANES]));
+        let front = join(first[0], second[0], third[0], fourth[0]);
+        let back = join(first[1], second[1], third[1], fourth[1]);
+        [lower(front), upper(front), lower(back)]
+    }
+
+    #[inline(always)]
     fn transpose(self, rows: &mut [F32x16]) {
         let rows = &mut rows[..LANES];
         // SAFETY: `self` exists only with AVX-512.
@@ -139,6 +153,24 @@ fn odd(a: __m512, b: __m512) -> __m512 {
     unsafe { _mm512_permutex2var_ps(a, at, b) }
 }
 
+/// The 16-bit floats in the lower halves of all lanes.
+#[inline(always)]
+fn lower(lanes: F32x16) -> F32x16 {
+    // SAFETY: vectors exist only with AVX-512.
+    upper(F32x16(unsafe { _mm512_castsi512_ps(_mm512_slli_epi32::<16>(_mm512_castps_si512(lanes.0))) }))
+}
+
+/// Those in the upper halves: sign and exponent go where a single has them.
+#[inline(always)]
+fn upper(lanes: F32x16) -> F32x16 {
+    // SAFETY: vectors exist only with AVX-512.
+    unsafe {
+        let moved = _mm512_srai_epi32::<3>(_mm512_castps_si512(lanes.0));
+        let kept = _mm512_and_si512(moved, _mm512_set1_epi32(MOVED_HALF as i32));
+        F32x16(_mm512_mul_ps(_mm512_castsi512_ps(kept), _mm512_set1_ps(REBIAS)))
+    }
+}
+
 impl Add for F32x16 {
     type Output = Self;
     #[inline(always)]
@@ -163,6 +195,15 @@ impl Mul for F32x16 {
     fn mul(self, other: Self) -> Self {
         // SAFETY: vectors exist only with AVX-512.
         Self(unsafe { _mm512_mul_ps(self.0, other.0) })
+    }
+}
+
+impl Div for F32x16 {
+    type Output = Self;
+    #[inline(always)]
+    fn div(self, other: Self) -> Self {
+        // SAFETY: vectors exist only with AVX-512.
+        Self(unsafe { _mm512_div_ps(self.0, other.0) })
     }
 }
 

@@ -27,6 +27,7 @@ mod scalar;
 #[cfg(target_arch = "x86_64")]
 mod sse;
 mod strided;
+mod texels;
 #[cfg(target_arch = "x86_64")]
 mod x86;
 
@@ -34,9 +35,10 @@ pub use aligned::Aligned;
 pub use channels::{Channels, ChannelsMut};
 pub use isa::{Isa, Kernel, NoSuchIsa};
 pub use strided::{Strided, StridedMut};
+pub use texels::{MOVED_HALF, REBIAS, Texels};
 
 use half::f16;
-use std::ops::{Add, Mul, Neg, Sub};
+use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// What [`Float::inverse_sqrt_seed`] takes half the bits from (Blinn 1997), such that it is as much too large as too small.
 const SEED: u32 = 0x5f37_4700;
@@ -103,6 +105,13 @@ pub trait Simd: Copy + Send + Sync + 'static {
     /// When `indices` is shorter, or an index is beyond the table.
     fn pairs(self, table: &[[f32; 2]], indices: &[u16]) -> [Self::F32; 2];
 
+    /// The first three numbers of the texels at the first [`Simd::LANES`] of `indices`, each modulo the number of
+    /// texels.
+    ///
+    /// # Panics
+    /// When `indices` is shorter.
+    fn texels(self, map: Texels<'_>, indices: &[u32]) -> [Self::F32; 3];
+
     /// Swaps rows and columns of the square that the first [`Simd::LANES`] vectors are.
     ///
     /// # Panics
@@ -112,7 +121,7 @@ pub trait Simd: Copy + Send + Sync + 'static {
 
 /// A vector of `f32`. Operations act on each lane by itself unless they say otherwise.
 pub trait Float:
-    Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Neg<Output = Self>
+    Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self> + Neg<Output = Self>
 {
     /// `self * factor + term`, rounded once where the processor can.
     fn mul_add(self, factor: Self, term: Self) -> Self;

@@ -1,8 +1,11 @@
 //! Four lanes: NEON, part of every 64-bit ARM processor.
-use super::{Float, Kernel, SEED, Simd};
+use super::{
+    Float, Kernel, SEED, Simd, Texels,
+    texels::{MOVED_HALF, REBIAS},
+};
 use half::f16;
 use std::arch::{aarch64::*, asm};
-use std::ops::{Add, Mul, Neg, Sub};
+use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// NEON: a value exists only where the processor has it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -74,6 +77,20 @@ impl Simd for Neon {
     }
 
     #[inline(always)]
+    fn texels(self, map: Texels<'_>, indices: &[u32]) -> [F32x4; 3] {
+        let indices = &indices[..LANES];
+        // SAFETY: each pointer is to a texel, 64 bits; `self` exists only with NEON.
+        unsafe {
+            let at = [map.at(indices[0]), map.at(indices[1]), map.at(indices[2]), map.at(indices[3])];
+            let low = vcombine_u16(vld1_u16(at[0].cast()), vld1_u16(at[1].cast()));
+            let high = vcombine_u16(vld1_u16(at[2].cast()), vld1_u16(at[3].cast()));
+            let (low, high) = (vreinterpretq_u32_u16(low), vreinterpretq_u32_u16(high));
+            let (front, back) = (vuzp1q_u32(low, high), vuzp2q_u32(low, high));
+            [lower(front), upper(front), lower(back)]
+        }
+    }
+
+    #[inline(always)]
     fn transpose(self, rows: &mut [F32x4]) {
         let rows = &mut rows[..LANES];
         let [a, b, c, d] = [rows[0].0, rows[1].0, rows[2].0, rows[3].0];
@@ -88,6 +105,24 @@ impl Simd for Neon {
             rows[2] = F32x4(vreinterpretq_f32_f64(vzip2q_f64(ab, cd)));
             rows[3] = F32x4(vreinterpretq_f32_f64(vzip2q_f64(ab_odd, cd_odd)));
         }
+    }
+}
+
+/// The 16-bit floats in the lower halves of all lanes.
+#[inline(always)]
+fn lower(lanes: uint32x4_t) -> F32x4 {
+    // SAFETY: the callers are operations of vectors, which exist only with NEON.
+    upper(unsafe { vshlq_n_u32::<16>(lanes) })
+}
+
+/// Those in the upper halves: sign and exponent go where a single has them.
+#[inline(always)]
+fn upper(lanes: uint32x4_t) -> F32x4 {
+    // SAFETY: the callers are operations of vectors, which exist only with NEON.
+    unsafe {
+        let moved = vshrq_n_s32::<3>(vreinterpretq_s32_u32(lanes));
+        let kept = vandq_u32(vreinterpretq_u32_s32(moved), vdupq_n_u32(MOVED_HALF));
+        F32x4(vmulq_f32(vreinterpretq_f32_u32(kept), vdupq_n_f32(REBIAS)))
     }
 }
 
@@ -115,6 +150,15 @@ impl Mul for F32x4 {
     fn mul(self, other: Self) -> Self {
         // SAFETY: vectors exist only with NEON.
         Self(unsafe { vmulq_f32(self.0, other.0) })
+    }
+}
+
+impl Div for F32x4 {
+    type Output = Self;
+    #[inline(always)]
+    fn div(self, other: Self) -> Self {
+        // SAFETY: vectors exist only with NEON.
+        Self(unsafe { vdivq_f32(self.0, other.0) })
     }
 }
 

@@ -1,7 +1,7 @@
 //! One lane, in plain Rust: for processors that have no kernels of their own, and to compare with.
-use super::{Float, Kernel, Simd};
+use super::{Float, Kernel, Simd, Texels};
 use half::f16;
-use std::ops::{Add, Mul, Neg, Sub};
+use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// Plain Rust.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -46,6 +46,12 @@ impl Simd for Scalar {
     }
 
     #[inline(always)]
+    fn texels(self, map: Texels<'_>, indices: &[u32]) -> [F32x1; 3] {
+        let [first, second, third, _] = map.get(indices[0]);
+        [first, second, third].map(|half| F32x1(half.to_f32()))
+    }
+
+    #[inline(always)]
     fn transpose(self, _: &mut [F32x1]) {}
 }
 
@@ -70,6 +76,14 @@ impl Mul for F32x1 {
     #[inline(always)]
     fn mul(self, other: Self) -> Self {
         Self(self.0 * other.0)
+    }
+}
+
+impl Div for F32x1 {
+    type Output = Self;
+    #[inline(always)]
+    fn div(self, other: Self) -> Self {
+        Self(self.0 / other.0)
     }
 }
 

@@ -1,8 +1,12 @@
 //! Four lanes: SSE4.1, for x86 processors without AVX2. No fused multiply-add, and no half-precision conversion.
-use super::{Float, Kernel, SEED, Simd, x86};
+use super::{
+    Float, Kernel, SEED, Simd, Texels,
+    texels::{MOVED_HALF, REBIAS},
+    x86,
+};
 use half::f16;
 use std::arch::x86_64::*;
-use std::ops::{Add, Mul, Neg, Sub};
+use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// SSE4.1: a value exists only where the processor has it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -65,6 +69,12 @@ impl Simd for Sse {
     }
 
     #[inline(always)]
+    fn texels(self, map: Texels<'_>, indices: &[u32]) -> [F32x4; 3] {
+        let [low, high] = x86::texels(map, &indices[..LANES]);
+        [lower(low), upper(low), lower(high)]
+    }
+
+    #[inline(always)]
     fn transpose(self, rows: &mut [F32x4]) {
         let rows = &mut rows[..LANES];
         let [a, b, c, d] = [rows[0].0, rows[1].0, rows[2].0, rows[3].0];
@@ -77,6 +87,24 @@ impl Simd for Sse {
             rows[2] = F32x4(_mm_movelh_ps(ab_high, cd_high));
             rows[3] = F32x4(_mm_movehl_ps(cd_high, ab_high));
         }
+    }
+}
+
+/// The 16-bit floats in the lower halves of all lanes.
+#[inline(always)]
+fn lower(lanes: __m128) -> F32x4 {
+    // SAFETY: the callers are operations of vectors, which exist only with SSE4.1.
+    upper(unsafe { _mm_castsi128_ps(_mm_slli_epi32::<16>(_mm_castps_si128(lanes))) })
+}
+
+/// Those in the upper halves: sign and exponent go where a single has them.
+#[inline(always)]
+fn upper(lanes: __m128) -> F32x4 {
+    // SAFETY: the callers are operations of vectors, which exist only with SSE4.1.
+    unsafe {
+        let moved = _mm_srai_epi32::<3>(_mm_castps_si128(lanes));
+        let kept = _mm_and_si128(moved, _mm_set1_epi32(MOVED_HALF as i32));
+        F32x4(_mm_mul_ps(_mm_castsi128_ps(kept), _mm_set1_ps(REBIAS)))
     }
 }
 
@@ -104,6 +132,15 @@ impl Mul for F32x4 {
     fn mul(self, other: Self) -> Self {
         // SAFETY: vectors exist only with SSE4.1.
         Self(unsafe { _mm_mul_ps(self.0, other.0) })
+    }
+}
+
+impl Div for F32x4 {
+    type Output = Self;
+    #[inline(always)]
+    fn div(self, other: Self) -> Self {
+        // SAFETY: vectors exist only with SSE4.1.
+        Self(unsafe { _mm_div_ps(self.0, other.0) })
     }
 }
 
