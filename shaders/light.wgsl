@@ -13,9 +13,12 @@ fn air_keeps(distance: f32) -> f32 {
     return exp2(-frame.air.x * distance);
 }
 
+// Height of a ray of length 1 that still sees the horizon's colour.
+const HORIZON: f32 = 0.012;
+
 // What the air adds in its place: the horizon's own colour, so that the sea ends in the sky without a line.
 fn horizon(ray: vec3f) -> vec3f {
-    return sky_radiance(vec3f(ray.x, max(ray.y, 0.012), ray.z), 0.0);
+    return sky_radiance(vec3f(ray.x, max(ray.y, HORIZON), ray.z), 0.0);
 }
 
 fn haze(color: vec3f, ray: vec3f, distance: f32) -> vec3f {
