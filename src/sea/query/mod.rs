@@ -1,5 +1,6 @@
 //! The surface at a point, from the very maps that are drawn. See `docs/query.md`.
 mod approach;
+mod formulas;
 mod grid;
 mod newton;
 mod sample;
@@ -10,6 +11,7 @@ use super::{
     maps::SeaMaps,
     settings::{FoamSettings, MAX_CASCADES},
     simd::{Isa, MAX_LANES},
+    waves::Model,
 };
 use grid::Grid;
 use newton::{Block, Solve};
@@ -74,6 +76,9 @@ pub struct Query<'a> {
     /// How many there are.
     count: usize,
     foam: &'a FoamSettings,
+    /// Formulas that are added to the maps, at this time, seconds.
+    models: &'a [Model],
+    time: f64,
     isa: Isa,
 }
 
@@ -106,7 +111,8 @@ impl<'a> Query<'a> {
         });
         frames[0] = Frame { turn: [1.0, 0.0], follow: [1.0, 0.0] };
         // No cascade at all is one that is flat.
-        Self { grids, frames, count: maps.cascades.len().clamp(1, MAX_CASCADES), foam: &maps.foam, isa }
+        let count = maps.cascades.len().clamp(1, MAX_CASCADES);
+        Self { grids, frames, count, foam: &maps.foam, models: &maps.models, time: maps.time, isa }
     }
 
     /// The point of the surface whose rest position is (`x`, `z`).
@@ -116,10 +122,14 @@ impl<'a> Query<'a> {
 
     /// The point of the surface above or below (`x`, `z`): the q with q + D(q) = (x, z).
     ///
-    /// Newton's method on the piecewise bilinear field that is drawn; where the sea is so steep that it fails, with
+    /// Newton's method on the piecewise bilinear field that is drawn, and on formulas; where the sea is so steep that it fails, with
     /// damped steps and from several places. At most [`MAX_ITERATIONS`] steps in all; `residual` says how well they
     /// went. Where the sea has folded over (J < 0) there are several such points and one of them is returned.
     pub fn above(&self, x: f64, z: f64) -> Surface {
+        if !self.models.is_empty() {
+            let (q, iterations) = formulas::solve(self, [x, z]);
+            return self.surface(q, [x, z], iterations);
+        }
         let mut block = Block::<ALONE>::new(self);
         self.isa.run(Solve { block: &mut block, targets: &[[x; ALONE], [z; ALONE]] });
         self.found(&block, 0, [x, z])
@@ -130,6 +140,9 @@ impl<'a> Query<'a> {
     /// # Panics
     /// When `points` and `surfaces` differ in length.
     pub fn above_many(&self, points: &[[f64; 2]], surfaces: &mut [Surface]) {
+        if !self.models.is_empty() {
+            return each(points, surfaces, |[x, z]| self.above(x, z));
+        }
         assert_eq!(points.len(), surfaces.len(), "one surface for each point");
         let mut block = Block::<TOGETHER>::new(self);
         for (points, surfaces) in points.chunks(TOGETHER).zip(surfaces.chunks_mut(TOGETHER)) {
@@ -146,6 +159,11 @@ impl<'a> Query<'a> {
     /// # Panics
     /// When `points` and `heights` differ in length.
     pub fn heights(&self, points: &[[f64; 2]], heights: &mut [f64]) {
+        if !self.models.is_empty() {
+            return each(points, heights, |point| {
+                Sample::at(self, formulas::solve(self, point).0).value.displacement[1]
+            });
+        }
         assert_eq!(points.len(), heights.len(), "one height for each point");
         let mut block = Block::<TOGETHER>::new(self);
         for (points, heights) in points.chunks(TOGETHER).zip(heights.chunks_mut(TOGETHER)) {
@@ -179,7 +197,7 @@ impl<'a> Query<'a> {
             position: [q[0] + x, height, q[1] + z],
             normal: normal(self, q),
             displacement: [x, height, z],
-            foam: foam(self.foam, sample.value.compression),
+            foam: (foam(self.foam, sample.value.compression) + sample.foam).min(1.0),
             residual: if target == q { 0.0 } else { norm(sample.miss(q, target)) },
             iterations,
         }
@@ -207,4 +225,12 @@ fn targets(points: &[[f64; 2]]) -> [[f64; TOGETHER]; 2] {
         [targets[0][i], targets[1][i]] = points[i.min(points.len() - 1)];
     }
     targets
+}
+
+/// One answer for each of `points`.
+fn each<T>(points: &[[f64; 2]], answers: &mut [T], answer: impl Fn([f64; 2]) -> T) {
+    assert_eq!(points.len(), answers.len(), "one answer for each point");
+    for (to, &point) in answers.iter_mut().zip(points) {
+        *to = answer(point);
+    }
 }
