@@ -1,7 +1,8 @@
 //! Scene files: TOML in, a checked [`Scene`] out.
 //!
 //! `schema` holds every key with its unit, range and default; `reader` checks a file against it and finds the place of
-//! whatever is wrong; `assemble` checks what keys say together. `docs/scene.md` is [`reference`]'s text.
+//! whatever is wrong; `assemble` checks what keys say together. `docs/scene.md` is [`reference`]'s text. `document` is a file being
+//! changed by a panel, which is made from [`parts`], and `history` what it was before.
 use crate::{
     lod::LodSettings,
     raft::{BuoySettings, RaftSettings},
@@ -12,16 +13,28 @@ use std::fs::File;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
+mod address;
 mod assemble;
+#[cfg(not(target_os = "android"))]
+mod document;
 mod draft;
 mod error;
+mod field;
+#[cfg(not(target_os = "android"))]
+mod history;
 mod key;
 mod reader;
 mod reference;
 mod schema;
 mod section;
 
+pub use address::Address;
+#[cfg(not(target_os = "android"))]
+pub use document::Document;
 pub use error::{Place, SceneError};
+pub use field::{Field, FieldKind, Part, Value, parts};
+#[cfg(not(target_os = "android"))]
+pub use history::History;
 pub use reference::reference;
 
 /// Most bytes of a scene file.
