@@ -115,6 +115,13 @@ impl Document {
         }
     }
 
+    /// Takes every table at the top of `other` for its own table of that name.
+    pub fn take_over(&mut self, other: &Self) {
+        for (name, item) in other.tree.iter() {
+            self.tree.insert(name, item.clone());
+        }
+    }
+
     fn table(&self, address: &Address) -> Option<&dyn TableLike> {
         let mut table: &dyn TableLike = self.tree.as_table();
         for (name, index) in address.steps() {
