@@ -23,6 +23,7 @@ mod field;
 #[cfg(not(target_os = "android"))]
 mod history;
 mod key;
+mod models;
 mod reader;
 mod reference;
 mod schema;
@@ -57,6 +58,8 @@ pub struct Scene {
     pub raft: RaftSettings,
     /// Floating markers, at most [`crate::raft::MAX_BUOYS`].
     pub buoys: Vec<BuoySettings>,
+    /// What is allowed and hardly meant, a line each with file, line and column.
+    pub warnings: Vec<String>,
 }
 
 impl Scene {
