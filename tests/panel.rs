@@ -6,7 +6,7 @@ use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use std::path::Path;
 use swell::panel::{Edit, Facts, Knob, Panel, Quick, presets};
-use swell::scene::{FieldKind, Scene, parts};
+use swell::scene::{Part, Scene, parts};
 
 const SCENES: [&str; 3] = ["open_ocean", "calm", "storm"];
 
@@ -106,39 +106,63 @@ fn change_undo_redo_save_reload_gives_the_same_bytes() {
     }
 }
 
+/// A text with a table of each section, so that each key of `part` may stand in it, and where that is.
+fn with(part: &Part) -> (String, String) {
+    let (around, name) = part.path.rsplit_once('.').unwrap_or(("", part.path));
+    let all = parts();
+    let chooses = |path: &str| all.iter().any(|p| p.path == path && p.model.is_some());
+    let by_parent = all.iter().find(|p| p.path == around && p.children.contains(&name)).and_then(|p| p.model);
+    let model = part.model.or(by_parent).unwrap_or("fft");
+    let mut text = String::new();
+    let mut place = String::new();
+    let mut path = String::new();
+    for step in part.path.split('.') {
+        path = if path.is_empty() { step.to_owned() } else { format!("{path}.{step}") };
+        let several = all.iter().any(|p| p.path == path && p.several);
+        text += &if several { format!("[[{path}]]\n") } else { format!("[{path}]\n") };
+        if chooses(&path) && (path != "layer" || model != "fft") {
+            text += &format!("model = \"{model}\"\n");
+        }
+        place = if place.is_empty() { step.to_owned() } else { format!("{place}.{step}") };
+        if several {
+            place += "[0]";
+        }
+    }
+    (text, place)
+}
+
 #[test]
 fn every_key_of_the_schema_has_a_widget() {
-    let text = "[sea]\n[[sea.cascade]]\n[[buoy]]\n";
-    let mut desk = Desk::new(text);
     for part in parts() {
+        let (text, place) = with(&part);
+        let mut desk = Desk::new(&text);
         for field in &part.fields {
-            let mut steps = part.path.to_owned();
-            // One table of each array, as in the text; those that others add are added here.
-            for several in parts().iter().filter(|part| part.several) {
-                let name = several.path.rsplit('.').next().unwrap();
-                if steps == several.path || steps.starts_with(&format!("{}.", several.path)) {
-                    steps = steps.replacen(name, &format!("{name}[0]"), 1);
-                    if desk.harness.state().place(&format!("[{steps}]")).is_none() {
-                        let around = steps.rsplit_once('.').map_or("", |(around, _)| around);
-                        let add = if around.is_empty() {
-                            format!("{name} add")
-                        } else {
-                            format!("{around}.{name} add")
-                        };
-                        desk.panel().seek(&format!("{steps}.{}", field.name));
-                        desk.harness.run_steps(20);
-                        if let Some(button) = desk.harness.state().place(&add)
-                            && desk.harness.state().place(&format!("[{steps}]")).is_none()
-                        {
-                            desk.click(button.center());
-                        }
-                    }
-                }
-            }
-            let path = format!("{steps}.{}", field.name);
-            let place = desk.find(&path);
-            assert!(place.width() > 10.0, "{path}: {place:?}");
+            let path = format!("{place}.{}", field.name);
+            let widget = desk.find(&path);
+            assert!(widget.width() > 10.0, "{path}: {widget:?}\n{text}");
         }
+    }
+}
+
+#[test]
+fn another_model_takes_the_keys_of_the_first_with_it() {
+    for scene in SCENES {
+        let before = shipped(scene);
+        let mut desk = Desk::new(&before);
+        for model in ["waves", "fbm", "fft", "waves"] {
+            let combo = desk.find("sea.model");
+            desk.click(combo.center());
+            desk.harness.get_by_label(model).click();
+            desk.harness.run_steps(4);
+            assert!(desk.text().contains(&format!("model = \"{model}\"")), "{}", desk.text());
+            if let Err(error) = Scene::parse(desk.text(), scene) {
+                panic!("{model}: {error}\n{}", desk.text());
+            }
+        }
+        for _ in 0..4 {
+            desk.panel().edit(Edit::Undo);
+        }
+        assert_eq!(desk.text(), before);
     }
 }
 
@@ -288,11 +312,10 @@ fn a_file_that_somebody_else_writes_is_taken_over() {
 
 #[test]
 fn bands_never_cross() {
-    let kind = FieldKind::Band;
     let mut desk = Desk::new("[[sea.cascade]]\nband = [0.5, 2.0]\n");
     let widget = desk.find("sea.cascade[0].band");
     desk.drag(pos2(widget.left() + 15.0, widget.center().y), pos2(widget.left() + 900.0, widget.center().y));
     let text = desk.text().to_owned();
     let band = Scene::parse(&text, "a").unwrap().sea.cascades[0].band;
-    assert!(band[0] > 0.5 && band[0] < band[1], "{text} {kind:?}");
+    assert!(band[0] > 0.5 && band[0] < band[1], "{text}");
 }

@@ -21,6 +21,8 @@ mod patch_grid;
 mod raft;
 mod renderer;
 mod sea_textures;
+#[cfg(not(target_os = "android"))]
+mod shader_reload;
 mod sky;
 mod sky_map;
 mod sky_picture;
@@ -29,6 +31,8 @@ mod solids;
 mod uniforms;
 mod vertex_input;
 mod vignette;
+#[cfg(not(target_os = "android"))]
+mod wgsl;
 
 pub use buoy::{BUOY_SOLIDS, Buoy};
 pub use camera::{Eye, Fov, NEAR, eyes};
@@ -43,6 +47,8 @@ pub use overlay::{Painting, Panel};
 pub use raft::{RAFT_SOLIDS, Raft};
 pub use renderer::Renderer;
 pub use sea_textures::SeaTextures;
+#[cfg(not(target_os = "android"))]
+pub use shader_reload::compile_shaders;
 pub use sky_map::SkyMap;
 pub use sky_picture::SkyError;
 pub use solids::{MOST_SOLIDS, Pose, Shape, Solid};

@@ -28,7 +28,7 @@ mod target;
 pub use bindings::{BindingKind, Bindings, Resource};
 pub use buffer::Buffer;
 pub use commands::{Commands, FRAMES_IN_FLIGHT, Transition, upload_buffer, upload_image};
-pub use device::{Device, DeviceNeeds};
+pub use device::{Device, DeviceNeeds, Replacements};
 pub use error::{Doing, GpuError};
 pub use gpu_allocator::MemoryLocation;
 pub use image::{Image, ImageInfo, Sampler};

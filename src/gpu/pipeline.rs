@@ -177,12 +177,13 @@ struct Module<'a> {
 impl<'a> Module<'a> {
     fn new(device: &'a Device, spirv: &[u8]) -> Result<Self, GpuError> {
         // The build wrote whole words, the lowest byte first; here they get the alignment that words need.
-        let words: Vec<u32> = spirv
+        let words: Vec<u32> = device
+            .shader(spirv)
             .chunks_exact(4)
             .map(|word| u32::from_le_bytes([word[0], word[1], word[2], word[3]]))
             .collect();
         let info = vk::ShaderModuleCreateInfo::default().code(&words);
-        // SAFETY: the words were written and validated by naga when Swell was built.
+        // SAFETY: the words were written and validated by naga, when Swell was built or since.
         let raw = unsafe { device.raw.create_shader_module(&info, None) };
         let raw = raw.doing("creating a shader module")?;
         Ok(Self { raw, device })

@@ -237,6 +237,11 @@ impl Target {
         unsafe { self.device.raw.cmd_end_render_pass(commands.raw) };
     }
 
+    /// The device it is on.
+    pub const fn device(&self) -> &Arc<Device> {
+        &self.device
+    }
+
     /// The finished image, where it is the target's own: in `TRANSFER_SRC_OPTIMAL` after the pass.
     pub const fn finished(&self) -> Option<&Image> {
         self.finished.as_ref()

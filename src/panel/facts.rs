@@ -1,6 +1,6 @@
 //! What a sea's settings promise: its spectrum and its heights. Worth a thread of its own: it visits every wave there is.
 
-use crate::sea::{CascadeSettings, SeaSettings, expected_variance, spectrum};
+use crate::sea::{CascadeSettings, SeaSettings, expected_variance, spectrum, waves::Model};
 use std::f64::consts::TAU;
 
 /// Bins of a spectrum for each factor of ten in the wave number.
@@ -18,6 +18,10 @@ pub struct Facts {
     pub heights: Vec<f64>,
     /// Sides of the patches, metres.
     pub patches: Vec<f64>,
+    /// log10 of the wave number (rad/m) and the height's variance, m^2, of each wave that is a formula.
+    pub waves: Vec<[f64; 2]>,
+    /// Variance of the heights of all formulas, m^2.
+    pub formulas: f64,
 }
 
 impl Facts {
@@ -32,12 +36,19 @@ impl Facts {
                 .map(|cascade| expected_variance(cascade, gravity).sqrt())
                 .collect(),
             patches: settings.cascades.iter().map(|cascade| cascade.patch_size).collect(),
+            waves: settings
+                .models
+                .iter()
+                .flat_map(Model::waves)
+                .map(|wave| [(TAU / wave.wavelength()).log10(), wave.variance()])
+                .collect(),
+            formulas: settings.models.iter().map(Model::variance).sum(),
         }
     }
 
     /// Standard deviation of the whole sea's height, metres.
     pub fn height(&self) -> f64 {
-        self.heights.iter().map(|height| height * height).sum::<f64>().sqrt()
+        (self.heights.iter().map(|height| height * height).sum::<f64>() + self.formulas).sqrt()
     }
 }
 

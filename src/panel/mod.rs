@@ -126,6 +126,11 @@ impl Panel {
         self.trouble = Some(reason);
     }
 
+    /// Whether nobody has told it of the sea that is drawn.
+    pub const fn wants_facts(&self) -> bool {
+        self.facts.heights.is_empty()
+    }
+
     /// Why the text is not what is drawn, where it is not.
     pub fn trouble(&self) -> Option<&str> {
         self.trouble.as_deref()
@@ -194,6 +199,11 @@ impl Panel {
     /// Where the widget of the key at `path` was shown last, in points.
     pub fn place(&self, path: &str) -> Option<Rect> {
         self.places.get(path).copied()
+    }
+
+    /// Where the word `text` of a list that is open was shown last, in points.
+    pub fn choice(context: &egui::Context, text: &str) -> Option<Rect> {
+        context.data(|data| data.get_temp(widgets::choice_id(text)))
     }
 
     /// Opens the sections around the key at `path` and scrolls to it, in the next frame.

@@ -2,7 +2,7 @@
 
 use super::Facts;
 use egui::{CollapsingHeader, Ui};
-use egui_plot::{Corner, Legend, Line, Plot};
+use egui_plot::{Corner, Legend, Line, Plot, Points};
 use std::collections::VecDeque;
 
 /// Points of the cut, and metres between two.
@@ -91,8 +91,12 @@ impl Plots {
 fn spectrum(ui: &mut Ui, facts: &Facts) {
     ui.weak("height's variance in m^2 for each factor of ten, by log10 of the wave number in rad/m");
     plot("spectrum").legend(Legend::default().position(Corner::RightTop)).show(ui, |plot| {
-        for (spectrum, patch) in facts.spectra.iter().zip(&facts.patches) {
+        let spectra = facts.spectra.iter().zip(&facts.patches).filter(|(spectrum, _)| !spectrum.is_empty());
+        for (spectrum, patch) in spectra {
             plot.line(Line::new(format!("patch of {patch} m"), spectrum.clone()));
+        }
+        if !facts.waves.is_empty() {
+            plot.points(Points::new("waves, their own variance", facts.waves.clone()).radius(4.0));
         }
     });
 }

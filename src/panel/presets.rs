@@ -1,7 +1,7 @@
 //! Seas to begin with, by the source that describes them.
 
 use super::Panel;
-use crate::scene::Document;
+use crate::scene::{Address, Document};
 use egui::{CollapsingHeader, Ui};
 
 /// A sea with a name.
@@ -17,18 +17,39 @@ pub struct Preset {
     pub text: &'static str,
 }
 
-const SPECTRAL: &str = "Spectral sea (Aebi, VR Ocean)";
+const SPECTRAL: &str = "Aebi, \"VR Ocean\": spectra";
+const FRACTAL: &str = "An article on procedural water: fractal sums";
+const GERSTNER: &str = "A tutorial on Gerstner waves";
+const SINES: &str = "Wu and Luk: sums of sines, by keys 8, 9 and 0";
 
-/// All of them.
-const PRESETS: [Preset; 3] = [
-    Preset { name: "calm", source: SPECTRAL, key: Some('8'), text: include_str!("presets/calm.toml") },
+/// All of them, those of a source together.
+const PRESETS: [Preset; 11] = [
+    Preset { name: "calm", source: SPECTRAL, key: None, text: include_str!("presets/calm.toml") },
+    Preset { name: "fresh breeze", source: SPECTRAL, key: None, text: include_str!("presets/breeze.toml") },
+    Preset { name: "gale", source: SPECTRAL, key: None, text: include_str!("presets/gale.toml") },
+    Preset { name: "sines", source: FRACTAL, key: None, text: include_str!("presets/fbm_sine.toml") },
     Preset {
-        name: "fresh breeze",
-        source: SPECTRAL,
-        key: Some('9'),
-        text: include_str!("presets/breeze.toml"),
+        name: "sharp crests",
+        source: FRACTAL,
+        key: None,
+        text: include_str!("presets/fbm_exp_sine.toml"),
     },
-    Preset { name: "gale", source: SPECTRAL, key: Some('0'), text: include_str!("presets/gale.toml") },
+    Preset { name: "one wave", source: GERSTNER, key: None, text: include_str!("presets/gerstner_one.toml") },
+    Preset {
+        name: "three waves",
+        source: GERSTNER,
+        key: None,
+        text: include_str!("presets/gerstner_three.toml"),
+    },
+    Preset {
+        name: "on a swell",
+        source: GERSTNER,
+        key: None,
+        text: include_str!("presets/gerstner_layer.toml"),
+    },
+    Preset { name: "gentle", source: SINES, key: Some('8'), text: include_str!("presets/sines_gentle.toml") },
+    Preset { name: "peaked", source: SINES, key: Some('9'), text: include_str!("presets/sines_peaked.toml") },
+    Preset { name: "rings", source: SINES, key: Some('0'), text: include_str!("presets/rings.toml") },
 ];
 
 /// The presets there are.
@@ -40,6 +61,8 @@ impl Panel {
     /// Takes over the sections of `preset`: one step of the history.
     pub fn take_preset(&mut self, preset: &Preset) {
         if let Ok(other) = Document::parse(preset.text, preset.name) {
+            // What lies on the sea before would lie on this one too.
+            self.document.unset(&Address::root(), "layer");
             self.document.take_over(&other);
             self.history.settle();
             self.changed_about(&format!("preset {}", preset.name));

@@ -1,7 +1,7 @@
 //! Quick picks by key: the wave keys and readouts of Wu and Luk's program, for whichever model the scene has.
 
 use super::{Panel, presets};
-use crate::scene::{Address, FieldKind, Value};
+use crate::scene::{Address, FieldKind, Part, Value};
 use egui::{CollapsingHeader, Grid, Ui};
 
 /// What a key asks for while the panel is shown.
@@ -77,11 +77,9 @@ impl Panel {
         let keys = KEYS.iter().filter(|(of, own, ..)| *of == model && *own == knob);
         let mut about = String::new();
         for (_, _, path, key, inverse) in keys {
-            let part = self.parts.iter().find(|part| part.path == *path);
-            let Some(field) = part.and_then(|part| part.fields.iter().find(|field| field.name == *key))
-            else {
-                continue;
-            };
+            let here = |part: &&Part| part.path == *path && part.model.is_none_or(|own| own == model);
+            let mut fields = self.parts.iter().filter(here).flat_map(|part| &part.fields);
+            let Some(field) = fields.find(|field| field.name == *key) else { continue };
             let (kind, default) = (field.kind.clone(), field.default.clone());
             let factor = if *inverse { 1.0 / factor } else { factor };
             for address in self.addresses(path) {

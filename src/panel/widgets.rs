@@ -1,7 +1,7 @@
 //! A widget for each type of key, which gives no value that is out of range.
 
 use crate::scene::{Field, FieldKind, Value};
-use egui::{ComboBox, DragValue, Response, Slider, SliderClamping, TextEdit, Ui};
+use egui::{ComboBox, DragValue, Id, Response, Slider, SliderClamping, TextEdit, Ui};
 
 /// Ranges wider than this are no slider's: a pixel of it would be too much.
 const WIDEST: f64 = 2e6;
@@ -105,13 +105,20 @@ fn word_widget(ui: &mut Ui, field: &Field, words: &[&'static str], word: &str) -
     choose(ui, field, word, words.iter().map(choice).collect())
 }
 
+/// Where the word `text` of an open list is noted.
+pub fn choice_id(text: &str) -> Id {
+    Id::new(("choice", text))
+}
+
 /// One of `choices`.
 fn choose(ui: &mut Ui, field: &Field, now: &str, choices: Vec<(String, Value)>) -> (Response, Option<Value>) {
     let mut chosen = None;
     let combo = ComboBox::from_id_salt(field.name).selected_text(now);
     let shown = combo.show_ui(ui, |ui| {
         for (text, value) in choices {
-            if ui.selectable_label(text == now, &text).clicked() && text != now {
+            let label = ui.selectable_label(text == now, &text);
+            ui.data_mut(|data| data.insert_temp(choice_id(&text), label.rect));
+            if label.clicked() && text != now {
                 chosen = Some(value);
             }
         }

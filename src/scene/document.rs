@@ -74,6 +74,18 @@ impl Document {
         }
     }
 
+    /// Removes from the table at `address` whatever `may_stay` does not name.
+    pub fn retain(&mut self, address: &Address, may_stay: impl Fn(&str) -> bool) {
+        let Some(table) = self.table(address) else { return };
+        let unwanted: Vec<String> =
+            table.iter().map(|(name, _)| name.to_owned()).filter(|name| !may_stay(name)).collect();
+        if let Some(table) = self.table_mut(address) {
+            for name in unwanted {
+                table.remove(&name);
+            }
+        }
+    }
+
     /// How many tables the array `name` in the table at `address` has.
     pub fn count(&self, address: &Address, name: &str) -> usize {
         let item = self.table(address).and_then(|table| table.get(name));

@@ -57,13 +57,18 @@ pub struct Field {
     pub inherited: bool,
 }
 
-/// One section of a scene file.
+/// One section of a scene file, or what one model adds to it.
 #[derive(Clone, Debug)]
 pub struct Part {
     /// `sea.cascade`.
     pub path: &'static str,
     /// Whether there may be several: `[[sea.cascade]]`.
     pub several: bool,
+    /// The word of the key `model`, its own or that of the table around it, with which these keys may stand; nothing where the model
+    /// makes no difference.
+    pub model: Option<&'static str>,
+    /// Tables that may stand in it with this model.
+    pub children: &'static [&'static str],
     /// Its keys, in the order of the documentation.
     pub fields: Vec<Field>,
 }
@@ -73,6 +78,8 @@ pub fn parts() -> Vec<Part> {
     let part = |section: section::Section| Part {
         path: section.path,
         several: section.header.starts_with("[["),
+        model: section.model,
+        children: section.children,
         fields: section.rows.into_iter().map(field).collect(),
     };
     section::all().into_iter().map(part).collect()

@@ -63,6 +63,9 @@ pub struct Scene {
 }
 
 impl Scene {
+    /// The text of the scene that is drawn when none is named: `scenes/open_ocean.toml`, built in.
+    pub const FLAGSHIP: &str = include_str!("../../scenes/open_ocean.toml");
+
     /// Reads and checks the scene file at `path`.
     ///
     /// # Errors
@@ -101,12 +104,12 @@ impl Scene {
         assemble::assemble(text, origin)
     }
 
-    /// The scene that is drawn when none is named: `scenes/open_ocean.toml`, built in.
+    /// [`Scene::FLAGSHIP`], read.
     ///
     /// # Errors
     /// None as shipped; a test reads it.
     pub fn flagship() -> Result<Self, SceneError> {
-        Self::parse(include_str!("../../scenes/open_ocean.toml"), "scenes/open_ocean.toml")
+        Self::parse(Self::FLAGSHIP, "scenes/open_ocean.toml")
     }
 }
 
