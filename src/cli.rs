@@ -9,8 +9,8 @@ use std::time::Duration;
 use swell::commands::bench::{CaseName, IsaChoice};
 use swell::commands::query::{Coordinates, Point};
 use swell::commands::{
-    self, BakeOptions, BenchOptions, Clock, CommandError, Frames, RenderOptions, RunOptions, XrOptions,
-    bake::Format,
+    self, AuthoringOptions, BakeOptions, BenchOptions, Clock, CommandError, Frames, RenderOptions,
+    RunOptions, XrOptions, bake::Format,
 };
 use swell::draw::Look;
 use swell::host::Mirror;
@@ -84,6 +84,15 @@ struct Run {
     /// Pixels of the window.
     #[arg(long, default_value = "1280x720", value_parser = picture_size, value_name = "WxH")]
     size: [u32; 2],
+    /// Compile the shaders in this folder whenever one of them changes, and draw with them.
+    #[arg(long, value_name = "DIR", conflicts_with = "xr")]
+    shaders: Option<PathBuf>,
+    /// In a window, do what this script says in place of hands, and end with it: docs/panel.md has its words.
+    #[arg(long, value_name = "F", conflicts_with = "xr")]
+    play: Option<PathBuf>,
+    /// Write every frame of a window to this folder, as frame_0000.png and so on.
+    #[arg(long, value_name = "DIR", conflicts_with = "xr")]
+    record: Option<PathBuf>,
     /// Show it in a headset, through OpenXR.
     #[arg(long)]
     xr: bool,
@@ -256,6 +265,13 @@ impl Timeline {
 
 impl Run {
     fn run(self) -> Result<(), CommandError> {
+        let authoring = AuthoringOptions {
+            scene_file: self.scene.scene.clone(),
+            quality: self.quality,
+            shaders: self.shaders,
+            play: self.play,
+            record: self.record,
+        };
         let mut scene = self.scene.load()?;
         scene.lod.quality = self.quality.unwrap_or(scene.lod.quality);
         let options = RunOptions {
@@ -275,6 +291,7 @@ impl Run {
             validate: self.validate,
             threads: self.threads,
             cache: cache_folder(),
+            authoring,
         };
         commands::run(&scene, &options)
     }

@@ -16,6 +16,7 @@
 //!
 //! # Layers
 //! Imports run downwards only: `host` -> `draw` -> `gpu`; `draw` -> `lod`, `sea`, `scene`, `raft`; `scene` -> `raft` -> `sea`.
+//! `host` -> `panel` -> `scene`, `sea`, `output`.
 //! `sea`, `lod`, `raft` and `scene` know nothing of Vulkan or windows.
 #![warn(missing_docs)]
 
@@ -27,6 +28,8 @@ pub mod host;
 pub mod jobs;
 pub mod lod;
 pub mod output;
+#[cfg(not(target_os = "android"))]
+pub mod panel;
 pub mod raft;
 pub mod scene;
 pub mod sea;

@@ -17,7 +17,7 @@ pub use info::info;
 pub use progress::Progress;
 pub use query::{QueryError, query};
 pub use render::{RenderOptions, render};
-pub use run::{RunOptions, XrOptions, run};
+pub use run::{AuthoringOptions, RunOptions, XrOptions, run};
 pub use scene_summary::SceneSummary;
 
 use crate::host::HostError;

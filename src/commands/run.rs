@@ -4,12 +4,14 @@ use super::{Clock, CommandError, Frames, RenderOptions, render};
 use crate::draw::Look;
 use crate::gpu::Validation;
 use crate::host::{
-    Companion, CompanionSettings, HeadsetSettings, HostError, Mirror, WindowHost, WindowSettings, headset,
+    Companion, CompanionSettings, HeadsetSettings, HostError, Mirror, Script, WindowHost, WindowSettings,
+    headset,
 };
+use crate::lod::Quality;
 use crate::output::{OutputError, atomic::write_whole};
-use crate::scene::Scene;
+use crate::scene::{Scene, SceneError};
 use crate::xr::{self, Platform, vendor::FoveationLevel};
-use std::fs::File;
+use std::fs::{self, File};
 use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -38,6 +40,23 @@ pub struct RunOptions {
     pub threads: usize,
     /// Where compiled pipelines are kept.
     pub cache: Option<PathBuf>,
+    /// What a window authors.
+    pub authoring: AuthoringOptions,
+}
+
+/// What a scene in a window is changed by, besides hands.
+#[derive(Clone, Debug, Default)]
+pub struct AuthoringOptions {
+    /// The file that the scene was read from; without, the flagship that is built in.
+    pub scene_file: Option<PathBuf>,
+    /// The quality that stands for the scene's own.
+    pub quality: Option<Quality>,
+    /// A folder of shaders, compiled whenever they change.
+    pub shaders: Option<PathBuf>,
+    /// A script that plays what hands would do.
+    pub play: Option<PathBuf>,
+    /// A folder that every frame is written to.
+    pub record: Option<PathBuf>,
 }
 
 /// How a headset is used.
@@ -107,6 +126,13 @@ fn listen() -> Result<Arc<AtomicBool>, CommandError> {
 }
 
 fn window(scene: &Scene, options: &RunOptions, stop: &Arc<AtomicBool>) -> Result<(), CommandError> {
+    let AuthoringOptions { scene_file, quality, shaders, play, record } = options.authoring.clone();
+    let scene_text = match &scene_file {
+        Some(file) => {
+            fs::read_to_string(file).map_err(|source| SceneError::Read { path: file.clone(), source })?
+        }
+        None => Scene::FLAGSHIP.to_owned(),
+    };
     let settings = WindowSettings {
         size: options.size,
         device: options.device.clone(),
@@ -117,6 +143,12 @@ fn window(scene: &Scene, options: &RunOptions, stop: &Arc<AtomicBool>) -> Result
         screenshot: options.screenshot.clone(),
         frame_log: options.frame_log.clone(),
         stop: Arc::clone(stop),
+        scene_text,
+        scene_file,
+        quality,
+        shaders,
+        play: play.as_deref().map(Script::load).transpose().map_err(HostError::from)?,
+        record,
     };
     let mut host = WindowHost::new(scene, settings)?;
     let ended = host.run();

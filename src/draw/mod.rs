@@ -15,10 +15,14 @@ mod hidden_area;
 mod moment;
 mod motion;
 mod ocean;
+#[cfg(not(target_os = "android"))]
+mod overlay;
 mod patch_grid;
 mod raft;
 mod renderer;
 mod sea_textures;
+#[cfg(not(target_os = "android"))]
+mod shader_reload;
 mod sky;
 mod sky_map;
 mod sky_picture;
@@ -27,6 +31,8 @@ mod solids;
 mod uniforms;
 mod vertex_input;
 mod vignette;
+#[cfg(not(target_os = "android"))]
+mod wgsl;
 
 pub use buoy::{BUOY_SOLIDS, Buoy};
 pub use camera::{Eye, Fov, NEAR, eyes};
@@ -36,9 +42,13 @@ pub use error::DrawError;
 pub use hands::{HAND_SOLIDS, Hand, hand, joint, ray};
 pub use hidden_area::HiddenMesh;
 pub use moment::Moment;
+#[cfg(not(target_os = "android"))]
+pub use overlay::{Painting, Panel};
 pub use raft::{RAFT_SOLIDS, Raft};
 pub use renderer::Renderer;
 pub use sea_textures::SeaTextures;
+#[cfg(not(target_os = "android"))]
+pub use shader_reload::compile_shaders;
 pub use sky_map::SkyMap;
 pub use sky_picture::SkyError;
 pub use solids::{MOST_SOLIDS, Pose, Shape, Solid};

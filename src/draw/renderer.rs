@@ -271,6 +271,13 @@ impl Renderer {
         Ok(())
     }
 
+    /// Draws `scene`, which differs from the one it was made for in colours and exposure alone, from the next frame on.
+    /// `rms_height` is its sea's, metres.
+    pub fn repaint(&mut self, scene: &Scene, sky_map: &SkyMap, rms_height: f64) {
+        self.still = Frame::still(scene, sky_map, rms_height, spacing(&self.tree));
+        self.constant.detail = scene.water.detail;
+    }
+
     /// Bytes uploaded by the latest frame.
     pub const fn uploaded(&self) -> u64 {
         self.ring.used()

@@ -136,9 +136,11 @@ impl Bindings {
         }
     }
 
-    /// Binds set `index` with its uniform block at `offset`.
+    /// Binds set `index` with its uniform block, where it has one, at `offset`.
     pub fn bind(&self, commands: Recorder<'_>, index: usize, offset: u32) {
-        // SAFETY: `commands` is recording; the set is whole.
+        let has_block = self.kinds.iter().any(|(_, kind)| *kind == BindingKind::Uniform);
+        let offsets: &[u32] = if has_block { &[offset] } else { &[] };
+        // SAFETY: `commands` is recording; the set is whole, with as many dynamic offsets as it has uniform blocks.
         unsafe {
             self.device.raw.cmd_bind_descriptor_sets(
                 commands.raw,
@@ -146,7 +148,7 @@ impl Bindings {
                 self.pipeline_layout,
                 0,
                 &[self.sets[index]],
-                &[offset],
+                offsets,
             );
         }
     }

@@ -10,6 +10,7 @@ use gpu_allocator::vulkan::{
     Allocation, AllocationCreateDesc, AllocationScheme, Allocator, AllocatorCreateDesc,
 };
 use gpu_allocator::{AllocationSizes, AllocatorDebugSettings, MemoryLocation};
+use std::collections::HashMap;
 use std::ffi::{CStr, CString};
 use std::mem::ManuallyDrop;
 use std::path::Path;
@@ -27,6 +28,8 @@ pub struct Device {
     pub physical: PhysicalDevice,
     pub(super) cache: PipelineCache,
     allocator: ManuallyDrop<Mutex<Allocator>>,
+    /// Modules that stand in for others.
+    replaced: Mutex<Replacements>,
     /// There where depth can be resolved in a pass.
     pub(super) render_pass2: Option<khr::create_renderpass2::Device>,
     /// Whether passes may have a fragment density map.
@@ -36,6 +39,9 @@ pub struct Device {
     debug: Option<ext::debug_utils::Device>,
     instance: Arc<Instance>,
 }
+
+/// SPIR-V that stands in for the SPIR-V that was built in.
+pub type Replacements = HashMap<&'static [u8], Vec<u8>>;
 
 /// What a host asks of a device beyond what every device of Swell has.
 pub struct DeviceNeeds<'a> {
@@ -127,12 +133,24 @@ impl Device {
             physical,
             cache,
             allocator: ManuallyDrop::new(Mutex::new(allocator)),
+            replaced: Mutex::default(),
             render_pass2,
             density_maps,
             presents: needs.extensions.contains(&khr::swapchain::NAME),
             debug,
             instance,
         }))
+    }
+
+    /// Makes pipelines of `replacements` from now on, in place of the modules they name. All were validated by naga.
+    pub fn replace_shaders(&self, replacements: Replacements) {
+        *self.replaced.lock().unwrap_or_else(PoisonError::into_inner) = replacements;
+    }
+
+    /// What stands in for `spirv`, or itself.
+    pub(super) fn shader(&self, spirv: &[u8]) -> Vec<u8> {
+        let replaced = self.replaced.lock().unwrap_or_else(PoisonError::into_inner);
+        replaced.get(spirv).map_or_else(|| spirv.to_vec(), Clone::clone)
     }
 
     /// The instance it came from.

@@ -26,6 +26,8 @@ pub struct ImageInfo {
     pub view: vk::ImageViewType,
     /// Drawn with a fragment density map into storage that is smaller than it looks.
     pub subsampled: bool,
+    /// Seen in other formats of the same size too.
+    pub recast: bool,
 }
 
 impl ImageInfo {
@@ -42,6 +44,7 @@ impl ImageInfo {
             ),
             view: vk::ImageViewType::TYPE_2D,
             subsampled: false,
+            recast: false,
         }
     }
 }
@@ -79,6 +82,9 @@ impl Image {
         }
         if info.subsampled {
             flags |= vk::ImageCreateFlags::SUBSAMPLED_EXT;
+        }
+        if info.recast {
+            flags |= vk::ImageCreateFlags::MUTABLE_FORMAT;
         }
         let create = vk::ImageCreateInfo::default()
             .flags(flags)

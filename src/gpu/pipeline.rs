@@ -27,6 +27,8 @@ pub enum Blend {
     Opaque,
     /// It shows through as far as alpha is below 1.
     Over,
+    /// The same, by colours that were multiplied with their alpha already.
+    Premultiplied,
 }
 
 /// Vertex buffers and what is in them.
@@ -76,6 +78,16 @@ impl Pipeline {
         layout: vk::PipelineLayout,
         info: &PipelineInfo<'_>,
     ) -> Result<Self, GpuError> {
+        Self::within(device, (target.pass, target.info.samples), layout, info)
+    }
+
+    /// The same for any pass, whose colour has so many samples.
+    pub(super) fn within(
+        device: &Arc<Device>,
+        (pass, samples): (vk::RenderPass, vk::SampleCountFlags),
+        layout: vk::PipelineLayout,
+        info: &PipelineInfo<'_>,
+    ) -> Result<Self, GpuError> {
         if info.lines && !device.physical.wireframe {
             let feature = "fillModeNonSolid, which --debug wireframe needs".to_owned();
             return Err(GpuError::Missing { device: device.physical.name.clone(), feature });
@@ -105,15 +117,17 @@ impl Pipeline {
             .depth_bias_enable(raised)
             .depth_bias_constant_factor(8.0)
             .depth_bias_slope_factor(1.0);
-        let samples =
-            vk::PipelineMultisampleStateCreateInfo::default().rasterization_samples(target.info.samples);
+        let samples = vk::PipelineMultisampleStateCreateInfo::default().rasterization_samples(samples);
         let depth = vk::PipelineDepthStencilStateCreateInfo::default()
             .depth_test_enable(info.depth != DepthUse::Ignored)
             .depth_write_enable(matches!(info.depth, DepthUse::Solid | DepthUse::Raised))
             .depth_compare_op(vk::CompareOp::GREATER_OR_EQUAL);
         let blends = [vk::PipelineColorBlendAttachmentState::default()
-            .blend_enable(info.blend == Blend::Over)
-            .src_color_blend_factor(vk::BlendFactor::SRC_ALPHA)
+            .blend_enable(info.blend != Blend::Opaque)
+            .src_color_blend_factor(match info.blend {
+                Blend::Premultiplied => vk::BlendFactor::ONE,
+                Blend::Opaque | Blend::Over => vk::BlendFactor::SRC_ALPHA,
+            })
             .dst_color_blend_factor(vk::BlendFactor::ONE_MINUS_SRC_ALPHA)
             .src_alpha_blend_factor(vk::BlendFactor::ZERO)
             .dst_alpha_blend_factor(vk::BlendFactor::ONE)
@@ -132,7 +146,7 @@ impl Pipeline {
             .color_blend_state(&blend)
             .dynamic_state(&dynamic)
             .layout(layout)
-            .render_pass(target.pass)];
+            .render_pass(pass)];
         // SAFETY: every part referred to lives past the call; the stages were validated when Swell was built.
         let made = unsafe { device.raw.create_graphics_pipelines(device.cache.raw, &create, None) };
         let raw = made.map_err(|(_, result)| result).doing("compiling a pipeline")?[0];
@@ -163,12 +177,13 @@ struct Module<'a> {
 impl<'a> Module<'a> {
     fn new(device: &'a Device, spirv: &[u8]) -> Result<Self, GpuError> {
         // The build wrote whole words, the lowest byte first; here they get the alignment that words need.
-        let words: Vec<u32> = spirv
+        let words: Vec<u32> = device
+            .shader(spirv)
             .chunks_exact(4)
             .map(|word| u32::from_le_bytes([word[0], word[1], word[2], word[3]]))
             .collect();
         let info = vk::ShaderModuleCreateInfo::default().code(&words);
-        // SAFETY: the words were written and validated by naga when Swell was built.
+        // SAFETY: the words were written and validated by naga, when Swell was built or since.
         let raw = unsafe { device.raw.create_shader_module(&info, None) };
         let raw = raw.doing("creating a shader module")?;
         Ok(Self { raw, device })

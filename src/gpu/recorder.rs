@@ -37,6 +37,20 @@ impl Recorder<'_> {
         unsafe { self.device.raw.cmd_bind_index_buffer(self.raw, buffer.raw, 0, vk::IndexType::UINT16) };
     }
 
+    /// Reads 32-bit indices from `buffer` at `offset`.
+    pub fn wide_index_buffer(self, buffer: vk::Buffer, offset: u64) {
+        // SAFETY: as for vertices.
+        unsafe { self.device.raw.cmd_bind_index_buffer(self.raw, buffer, offset, vk::IndexType::UINT32) };
+    }
+
+    /// Draws only into this rectangle from here on: its upper left corner and its size, pixels.
+    pub fn scissor(self, [x, y]: [u32; 2], [width, height]: [u32; 2]) {
+        let offset = vk::Offset2D { x: x.cast_signed(), y: y.cast_signed() };
+        let area = [vk::Rect2D { offset, extent: vk::Extent2D { width, height } }];
+        // SAFETY: recording; every pipeline's scissor is dynamic.
+        unsafe { self.device.raw.cmd_set_scissor(self.raw, 0, &area) };
+    }
+
     /// Draws `indices` for each of `instances`. Pipeline, bindings and buffers are bound and cover both ranges.
     pub fn draw_indexed(self, indices: Range<u32>, instances: Range<u32>) {
         let (count, copies) = (indices.len() as u32, instances.len() as u32);

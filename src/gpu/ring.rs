@@ -24,7 +24,8 @@ impl UploadRing {
         let share = share.next_multiple_of(4096);
         let usage = vk::BufferUsageFlags::TRANSFER_SRC
             | vk::BufferUsageFlags::UNIFORM_BUFFER
-            | vk::BufferUsageFlags::VERTEX_BUFFER;
+            | vk::BufferUsageFlags::VERTEX_BUFFER
+            | vk::BufferUsageFlags::INDEX_BUFFER;
         let buffer = Buffer::new(device, "upload ring", share * frames, usage, MemoryLocation::CpuToGpu)?;
         Ok(Self { buffer, share, start: 0, cursor: 0 })
     }
@@ -56,6 +57,11 @@ impl UploadRing {
         }
         self.cursor = offset + wanted;
         Ok(offset)
+    }
+
+    /// Bytes of a share.
+    pub const fn share(&self) -> u64 {
+        self.share
     }
 
     /// Bytes taken from the current share.

@@ -89,7 +89,10 @@ impl Target {
         let one = vk::SampleCountFlags::TYPE_1;
         let usage = vk::ImageUsageFlags::COLOR_ATTACHMENT | vk::ImageUsageFlags::TRANSFER_SRC;
         check_limits(device, info)?;
-        let finished = Image::new(device, "finished colour", attachment(info, info.format, one, usage))?;
+        // An overlay blends what is encoded as sRGB as it is.
+        let recast = info.format == vk::Format::R8G8B8A8_SRGB;
+        let finished = ImageInfo { recast, ..attachment(info, info.format, one, usage) };
+        let finished = Image::new(device, "finished colour", finished)?;
         let color = finished.raw;
         let layout = vk::ImageLayout::TRANSFER_SRC_OPTIMAL;
         let lent = Lent { colors: &[color], ..Lent::default() };
@@ -234,6 +237,11 @@ impl Target {
         unsafe { self.device.raw.cmd_end_render_pass(commands.raw) };
     }
 
+    /// The device it is on.
+    pub const fn device(&self) -> &Arc<Device> {
+        &self.device
+    }
+
     /// The finished image, where it is the target's own: in `TRANSFER_SRC_OPTIMAL` after the pass.
     pub const fn finished(&self) -> Option<&Image> {
         self.finished.as_ref()
@@ -282,6 +290,7 @@ fn attachment(
         usage,
         view: vk::ImageViewType::TYPE_2D_ARRAY,
         subsampled: false,
+        recast: false,
     }
 }
 

@@ -28,13 +28,14 @@ pub use headset::{Drawn, Guest, HeadsetFrame, HeadsetReport, HeadsetSettings, he
 pub use mirror::Mirror;
 pub use screenshots::{Screenshots, read_back};
 #[cfg(not(target_os = "android"))]
-pub use window::{DesktopWindow, Ending, Key, WindowHost, WindowSettings};
+pub use window::{DesktopWindow, Ending, Key, Script, ScriptError, WindowHost, WindowSettings};
 
 use crate::draw::{DrawError, SkyError};
 use crate::gpu::GpuError;
 use crate::jobs::JobsError;
 use crate::output::OutputError;
 use crate::raft::RaftError;
+use crate::scene::SceneError;
 use crate::sea::SeaError;
 use crate::xr::XrError;
 
@@ -47,6 +48,9 @@ pub enum HostError {
     /// Drawing.
     #[error(transparent)]
     Draw(#[from] DrawError),
+    /// The text of a scene.
+    #[error(transparent)]
+    Scene(#[from] SceneError),
     /// The sky's file.
     #[error(transparent)]
     Sky(#[from] SkyError),
@@ -62,6 +66,10 @@ pub enum HostError {
     /// Worker threads.
     #[error(transparent)]
     Jobs(#[from] JobsError),
+    /// A session that plays itself.
+    #[cfg(not(target_os = "android"))]
+    #[error(transparent)]
+    Script(#[from] ScriptError),
     /// A file.
     #[error(transparent)]
     Output(#[from] OutputError),

@@ -118,6 +118,12 @@ impl Painter {
         Ok(self.renderer.set_quality(&self.device, scene, quality)?)
     }
 
+    /// Draws `scene` from the next frame on, which differs in colours, exposure and what floats from the one it was made for.
+    #[cfg(not(target_os = "android"))]
+    pub fn repaint(&mut self, scene: &Scene, sky: &SkyMap, rms_height: f64) {
+        self.renderer.repaint(scene, sky, rms_height);
+    }
+
     /// The device drawn on.
     pub const fn device(&self) -> &Arc<Device> {
         &self.device
@@ -163,7 +169,11 @@ pub fn start<T: AsRef<Target>>(
     })
 }
 
-fn begin_sea(scene: &Scene, threads: usize, first: Option<f64>) -> Result<SeaAhead, HostError> {
+/// A sea on workers of its own, its step to `first` on the way where that time is known.
+///
+/// # Errors
+/// Out of threads, or a parameter that no checked scene has.
+pub fn begin_sea(scene: &Scene, threads: usize, first: Option<f64>) -> Result<SeaAhead, HostError> {
     let workers = Workers::new(threads)?;
     let sea = workers.run(|| Sea::new(&scene.sea))?;
     let mut ahead = SeaAhead::new(sea, workers);

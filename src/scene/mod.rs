@@ -1,7 +1,8 @@
 //! Scene files: TOML in, a checked [`Scene`] out.
 //!
 //! `schema` holds every key with its unit, range and default; `reader` checks a file against it and finds the place of
-//! whatever is wrong; `assemble` checks what keys say together. `docs/scene.md` is [`reference`]'s text.
+//! whatever is wrong; `assemble` checks what keys say together. `docs/scene.md` is [`reference`]'s text. `document` is a file being
+//! changed by a panel, which is made from [`parts`], and `history` what it was before.
 use crate::{
     lod::LodSettings,
     raft::{BuoySettings, RaftSettings},
@@ -12,9 +13,15 @@ use std::fs::File;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
+mod address;
 mod assemble;
+#[cfg(not(target_os = "android"))]
+mod document;
 mod draft;
 mod error;
+mod field;
+#[cfg(not(target_os = "android"))]
+mod history;
 mod key;
 mod models;
 mod reader;
@@ -22,7 +29,13 @@ mod reference;
 mod schema;
 mod section;
 
+pub use address::Address;
+#[cfg(not(target_os = "android"))]
+pub use document::Document;
 pub use error::{Place, SceneError};
+pub use field::{Field, FieldKind, Part, Value, parts};
+#[cfg(not(target_os = "android"))]
+pub use history::History;
 pub use reference::reference;
 
 /// Most bytes of a scene file.
@@ -50,6 +63,9 @@ pub struct Scene {
 }
 
 impl Scene {
+    /// The text of the scene that is drawn when none is named: `scenes/open_ocean.toml`, built in.
+    pub const FLAGSHIP: &str = include_str!("../../scenes/open_ocean.toml");
+
     /// Reads and checks the scene file at `path`.
     ///
     /// # Errors
@@ -88,12 +104,12 @@ impl Scene {
         assemble::assemble(text, origin)
     }
 
-    /// The scene that is drawn when none is named: `scenes/open_ocean.toml`, built in.
+    /// [`Scene::FLAGSHIP`], read.
     ///
     /// # Errors
     /// None as shipped; a test reads it.
     pub fn flagship() -> Result<Self, SceneError> {
-        Self::parse(include_str!("../../scenes/open_ocean.toml"), "scenes/open_ocean.toml")
+        Self::parse(Self::FLAGSHIP, "scenes/open_ocean.toml")
     }
 }
 

@@ -1,5 +1,6 @@
 //! The sections of a scene file and the names of their keys: for telling what an unknown key may have meant, and for
 //! `docs/scene.md`.
+use super::field::{self, FieldKind, Value};
 use super::key::Key;
 use super::schema;
 
@@ -13,6 +14,9 @@ pub(super) struct Row {
     pub meaning: &'static str,
     /// Explained in another section.
     pub inherited: bool,
+    pub kind: FieldKind,
+    /// The default, where it is a value.
+    pub value: Option<Value>,
 }
 
 /// A section as text.
@@ -49,6 +53,8 @@ fn rows<T>(keys: &[Key<T>]) -> impl Iterator<Item = Row> {
         default: key.default_text(),
         meaning: key.meaning,
         inherited: false,
+        kind: field::kind(key),
+        value: field::default(key),
     })
 }
 

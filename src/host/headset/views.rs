@@ -143,6 +143,7 @@ fn copy_of(device: &Arc<Device>, info: &SwapchainInfo) -> Result<Image, GpuError
         usage: usage | vk::ImageUsageFlags::SAMPLED,
         view: vk::ImageViewType::TYPE_2D_ARRAY,
         subsampled: false,
+        recast: false,
     };
     Image::new(device, "copy of both eyes", copy)
 }

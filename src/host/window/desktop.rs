@@ -4,6 +4,8 @@
 //! are never kept by a window.
 
 use super::input::{Input, Key};
+use super::interface::Interface;
+use crate::draw::Painting;
 use crate::gpu::{Device, GpuError, Layers, Outcome, Pace, Picture, Presenter, Shown, Surface};
 use crate::host::HostError;
 use std::ffi::CStr;
@@ -38,6 +40,8 @@ struct State {
     window: Option<Arc<Window>>,
     failed: Option<OsError>,
     input: Input,
+    /// What is drawn over the picture, once somebody wants it.
+    interface: Option<Interface>,
     /// Pixels, as events tell: asking would wait for the display server.
     size: [u32; 2],
     closed: bool,
@@ -61,6 +65,7 @@ impl DesktopWindow {
             window: None,
             failed: None,
             input: Input::default(),
+            interface: None,
             size: [0, 0],
             closed: false,
             occluded: false,
@@ -179,6 +184,23 @@ impl DesktopWindow {
         keys
     }
 
+    /// What is drawn over the picture, if somebody has wanted it yet.
+    pub const fn interface(&mut self) -> Option<&mut Interface> {
+        self.state.interface.as_mut()
+    }
+
+    /// The same, made now where it is not there. With `step`, a frame counts as so many seconds.
+    pub fn interface_or_new(&mut self, step: Option<f64>) -> Option<&mut Interface> {
+        let window = self.state.window.as_ref()?;
+        Some(self.state.interface.get_or_insert_with(|| Interface::new(window, step)))
+    }
+
+    /// Runs `show` in it for a frame: what is to be drawn over the picture. Nothing while it is hidden.
+    pub fn run_interface(&mut self, show: impl FnMut(&mut egui::Ui)) -> Option<Painting> {
+        let window = self.state.window.as_ref()?;
+        self.state.interface.as_mut()?.run(window, show)
+    }
+
     fn toggle_fullscreen(&self) {
         if let Some(window) = &self.state.window {
             let all = Fullscreen::Borderless(None);
@@ -229,7 +251,14 @@ impl ApplicationHandler for State {
     }
 
     fn window_event(&mut self, _: &ActiveEventLoop, _: WindowId, event: WindowEvent) {
-        self.input.take(&event);
+        let taken = match (&mut self.interface, &self.window) {
+            (Some(interface), Some(window)) => interface.take(window, &event),
+            _ => false,
+        };
+        let shown = self.interface.as_ref().is_some_and(Interface::is_shown);
+        if !taken {
+            self.input.take(&event, shown);
+        }
         match event {
             WindowEvent::CloseRequested | WindowEvent::Destroyed => self.closed = true,
             WindowEvent::Occluded(occluded) => self.occluded = occluded,

@@ -1,6 +1,7 @@
 //! What keyboard and mouse have done since the frame before.
 
 use crate::host::view::Controls;
+use crate::panel::{Knob, Quick};
 use glam::DVec3;
 use winit::event::{ElementState, MouseButton, MouseScrollDelta, WindowEvent};
 use winit::keyboard::{KeyCode, PhysicalKey};
@@ -22,6 +23,31 @@ pub enum Key {
     Readout,
     /// F1 to F7: another look, counted from 0.
     Look(usize),
+    /// F10: the panel, or none.
+    Panel,
+    /// What keys mean while the panel is shown.
+    Quick(Quick),
+}
+
+/// Keys that mean something else while the panel is shown.
+fn quick(code: KeyCode) -> Option<Quick> {
+    use Knob::{Amplitude, Speed, Steepness, Wavelength};
+    Some(match code {
+        KeyCode::Digit8 => Quick::Preset('8'),
+        KeyCode::Digit9 => Quick::Preset('9'),
+        KeyCode::Digit0 => Quick::Preset('0'),
+        KeyCode::Digit5 => Quick::Readout(0),
+        KeyCode::Digit6 => Quick::Readout(1),
+        KeyCode::KeyU => Quick::Turn(Steepness, true),
+        KeyCode::KeyJ => Quick::Turn(Steepness, false),
+        KeyCode::KeyI => Quick::Turn(Wavelength, true),
+        KeyCode::KeyK => Quick::Turn(Wavelength, false),
+        KeyCode::KeyO => Quick::Turn(Amplitude, true),
+        KeyCode::KeyL => Quick::Turn(Amplitude, false),
+        KeyCode::KeyM => Quick::Turn(Speed, true),
+        KeyCode::KeyN => Quick::Turn(Speed, false),
+        _ => return None,
+    })
 }
 
 /// Keys by where they are on the keyboard, whatever is printed on them.
@@ -40,6 +66,7 @@ fn key(code: KeyCode) -> Option<Key> {
         KeyCode::F5 => Key::Look(4),
         KeyCode::F6 => Key::Look(5),
         KeyCode::F7 => Key::Look(6),
+        KeyCode::F10 => Key::Panel,
         _ => return None,
     })
 }
@@ -75,21 +102,30 @@ pub struct Input {
     drag: [f64; 2],
     wheel: f64,
     pressed: Vec<Key>,
+    /// Ctrl is down.
+    control: bool,
 }
 
 impl Input {
-    /// Takes in an event that is about keyboard or mouse.
-    pub fn take(&mut self, event: &WindowEvent) {
+    /// Takes in an event that is about keyboard or mouse; with a panel, some keys are about that, and those with Ctrl are its own.
+    pub fn take(&mut self, event: &WindowEvent, panel: bool) {
         match event {
             WindowEvent::KeyboardInput { event, is_synthetic, .. } => {
                 let PhysicalKey::Code(code) = event.physical_key else { return };
                 let down = event.state == ElementState::Pressed;
+                if matches!(code, KeyCode::ControlLeft | KeyCode::ControlRight) {
+                    self.control = down;
+                }
+                if panel && down && self.control {
+                    return;
+                }
                 for (held, _) in self.held.iter_mut().zip(HELD).filter(|(_, (own, ..))| *own == code) {
                     *held = down;
                 }
                 // Keys that were down when the window got the keyboard were not meant for it.
                 if down && !event.repeat && !is_synthetic {
-                    self.pressed.extend(key(code));
+                    let quick = panel.then(|| quick(code)).flatten().map(Key::Quick);
+                    self.pressed.extend(quick.or_else(|| key(code)));
                 }
             }
             WindowEvent::MouseInput { state, button, .. } => {
@@ -120,7 +156,7 @@ impl Input {
 
     /// Whoever has the keyboard now gets the events of keys and buttons that go up.
     fn release(&mut self) {
-        (self.held, self.buttons, self.cursor) = Default::default();
+        (self.held, self.buttons, self.cursor, self.control) = Default::default();
     }
 
     /// Keys pressed since the last call, in order.
@@ -161,11 +197,11 @@ mod tests {
     #[test]
     fn only_a_held_button_drags() {
         let mut input = Input::default();
-        input.take(&moved(10.0, 10.0));
-        input.take(&moved(30.0, 10.0));
+        input.take(&moved(10.0, 10.0), false);
+        input.take(&moved(30.0, 10.0), false);
         assert_eq!(input.controls(100).drag, [0.0; 2]);
-        input.take(&button(ElementState::Pressed));
-        input.take(&moved(40.0, 5.0));
+        input.take(&button(ElementState::Pressed), false);
+        input.take(&moved(40.0, 5.0), false);
         assert_eq!(input.controls(100).drag, [0.1, -0.05]);
         assert_eq!(input.controls(100).drag, [0.0; 2], "told once");
     }
@@ -173,11 +209,11 @@ mod tests {
     #[test]
     fn a_lost_keyboard_lets_everything_go() {
         let mut input = Input { held: [true; HELD.len()], ..Input::default() };
-        input.take(&button(ElementState::Pressed));
+        input.take(&button(ElementState::Pressed), false);
         assert!(input.controls(100).fast);
-        input.take(&WindowEvent::Focused(false));
-        input.take(&moved(0.0, 0.0));
-        input.take(&moved(50.0, 0.0));
+        input.take(&WindowEvent::Focused(false), false);
+        input.take(&moved(0.0, 0.0), false);
+        input.take(&moved(50.0, 0.0), false);
         assert_eq!(input.controls(100), Controls::default());
     }
 

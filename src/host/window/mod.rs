@@ -1,12 +1,20 @@
 //! Frames in a window of the desktop, for a person who flies about. See `docs/window.md`.
 
+mod authoring;
 mod clock;
 mod desktop;
 mod input;
+mod interface;
 mod readout;
+mod record;
+mod script;
+mod shader_watch;
+mod watch;
+mod workshop;
 
 pub use desktop::DesktopWindow;
 pub use input::Key;
+pub use script::{Script, ScriptError};
 
 use super::afloat::Afloat;
 use super::painter::{self, Painter};
@@ -17,9 +25,11 @@ use crate::gpu::{
     Device, DeviceNeeds, Directly, Instance, Layers, Pace, PhysicalDevice, Picture, Presenter, Target,
     TargetInfo, Turn, Validation,
 };
+use crate::lod::Quality;
 use crate::scene::Scene;
 use crate::sea::{SeaAhead, query::Surface};
 use ash::vk;
+use authoring::Authoring;
 use clock::Clock;
 use readout::{Readout, TITLE};
 use std::path::{Path, PathBuf};
@@ -48,6 +58,18 @@ pub struct WindowSettings {
     pub frame_log: Option<PathBuf>,
     /// Set by somebody outside who wants the end.
     pub stop: Arc<AtomicBool>,
+    /// The text that the scene was read from, for the panel to change.
+    pub scene_text: String,
+    /// The file it was read from, where it was one: watched, and saved to.
+    pub scene_file: Option<PathBuf>,
+    /// The quality that stands for the scene's own.
+    pub quality: Option<Quality>,
+    /// A folder of shaders to be compiled whenever they change.
+    pub shaders: Option<PathBuf>,
+    /// What hands do, in their place; the end comes with its end.
+    pub play: Option<Script>,
+    /// A folder that every frame is written to.
+    pub record: Option<PathBuf>,
 }
 
 /// How it ended.
@@ -71,9 +93,12 @@ pub struct WindowHost {
     sea: SeaAhead,
     /// Dropped before what its frames use, since dropping it waits for them.
     painter: Painter,
+    /// Dropped before the target that the panel is drawn on.
+    authoring: Authoring,
     opened: Opened,
-    scene: Scene,
-    sky: SkyMap,
+    scene: Arc<Scene>,
+    sky: Arc<SkyMap>,
+    look: Look,
     settings: WindowSettings,
     viewer: Viewer,
     afloat: Afloat,
@@ -114,14 +139,17 @@ impl WindowHost {
     pub fn new(scene: &Scene, settings: WindowSettings) -> Result<Self, HostError> {
         let window = DesktopWindow::open(TITLE, settings.size)?;
         let log = FrameLog::create(settings.frame_log.as_deref())?;
+        let authoring = Authoring::new(&settings)?;
         let open = || open(window, &settings);
         let started = painter::start(scene, Look::Water, settings.threads, Some(0.0), open)?;
         Ok(Self {
             sea: started.sea,
             painter: started.painter,
+            authoring,
             opened: started.opened,
-            scene: scene.clone(),
-            sky: started.sky,
+            scene: Arc::new(scene.clone()),
+            sky: Arc::new(started.sky),
+            look: Look::Water,
             settings,
             viewer: Viewer::new(&scene.camera),
             afloat: Afloat::default(),
@@ -153,7 +181,12 @@ impl WindowHost {
             let now = Now { since, took: since - std::mem::replace(&mut before, since) };
             clock.set_refresh(self.opened.window.refresh());
             let last = wanted.is_some_and(|wanted| self.drawn + 1 == wanted);
-            let following = (!last).then(|| clock.following(now.since.as_secs_f64()));
+            let following = (!last).then(|| match &self.settings.play {
+                Some(play) => time + play.step(),
+                None => clock.following(now.since.as_secs_f64()),
+            });
+            self.author(following.unwrap_or(time))?;
+            self.run_panel(1e3 * now.took.as_secs_f64());
             let counts = self.frame(following, &now)?;
             let record = FrameRecord::new(self.drawn, time, counts, self.painter.uploaded())
                 .took(now.took, self.sea.last_step());
@@ -161,6 +194,7 @@ impl WindowHost {
             if let Some(title) = self.readout.frame(&record) {
                 self.opened.window.set_title(&title);
             }
+            self.record_frame()?;
             self.drawn += 1;
             time = following.unwrap_or(time);
         }
@@ -176,6 +210,7 @@ impl WindowHost {
     /// Does what keys ask for; whether one, or somebody else, asked for the end.
     fn is_over(&mut self) -> Result<bool, HostError> {
         let mut over = self.opened.window.is_closed() || self.settings.stop.load(Ordering::Relaxed);
+        over |= self.play()?;
         for key in self.opened.window.pressed() {
             match key {
                 Key::End => over = true,
@@ -197,6 +232,8 @@ impl WindowHost {
                     }
                 }
                 Key::Look(index) => self.change_look(LOOKS[index])?,
+                Key::Panel => self.toggle_panel(),
+                Key::Quick(quick) => self.authoring.panel.quick(quick),
             }
         }
         Ok(over)
@@ -204,8 +241,10 @@ impl WindowHost {
 
     /// Draws and shows a frame, and begins the sea's step to `following`.
     fn frame(&mut self, following: Option<f64>, now: &Now) -> Result<DrawCounts, HostError> {
+        // The old sea has no step after this frame's, the new one its first.
+        let incoming = self.begin_incoming(following)?;
         let Opened { window, target } = &mut self.opened;
-        let maps = self.sea.next(following)?;
+        let maps = self.sea.next(if incoming { None } else { following })?;
         let vk::Extent2D { width, height } = target.info.extent;
         let controls = window.input().controls(height);
         let surface = |x, z| Surface::above(maps, x, z).height();
@@ -217,9 +256,18 @@ impl WindowHost {
         let index = self.drawn as usize;
         self.afloat.begin(&self.scene.buoys, maps);
         let moment = Moment { eyes: &eyes, maps, solids: self.afloat.solids(), vignette: 0.0 };
-        let counts = self.painter.paint(index, (target, turn), moment, |_| {})?;
+        authoring::cut(&mut self.authoring.panel, maps, &self.viewer);
+        let mut panel = Ok(());
+        let authoring = &mut self.authoring;
+        let counts = self.painter.paint(index, (target, turn), moment, |recorder| {
+            panel = authoring.record(recorder, target, index);
+        })?;
+        panel?;
         if let Some(finished) = target.finished() {
             window.show(&Picture::finished(finished), Layers::One(0), PATIENCE)?;
+        }
+        if incoming {
+            self.adopt_incoming()?;
         }
         Ok(counts)
     }
@@ -232,6 +280,7 @@ impl WindowHost {
         if extent != info.extent {
             self.painter.wait_all()?;
             self.opened.window.wait()?;
+            self.authoring.drop_overlay();
             self.opened.target = Target::new(self.painter.device(), TargetInfo { extent, ..info })?;
         }
         Ok(true)
@@ -242,7 +291,7 @@ impl WindowHost {
         self.painter.wait_all()?;
         let device = Arc::clone(self.painter.device());
         match Painter::new(&device, &self.opened.target, &self.scene, &self.sky, look) {
-            Ok(painter) => self.painter = painter,
+            Ok(painter) => (self.painter, self.look) = (painter, look),
             Err(error) => eprintln!("this look cannot be shown: {error}"),
         }
         Ok(())

@@ -1,0 +1,164 @@
+//! A pass over a finished picture, for what is drawn on a screen and not in the world.
+//!
+//! Colours are blended as they are encoded (sRGB), which is how people who draw user interfaces mean them: the pass sees the
+//! picture through a view that encodes nothing. One sample a pixel, no depth, one layer.
+
+use super::device::Device;
+use super::error::{Doing, GpuError};
+use super::image::Image;
+use super::pipeline::{Pipeline, PipelineInfo};
+use super::recorder::Recorder;
+use ash::vk;
+use std::sync::Arc;
+
+/// Of the view.
+const FORMAT: vk::Format = vk::Format::R8G8B8A8_UNORM;
+const ONE: vk::SampleCountFlags = vk::SampleCountFlags::TYPE_1;
+
+/// The pass, and the picture it draws on.
+pub struct Overlay {
+    /// Pixels.
+    pub extent: [u32; 2],
+    pass: vk::RenderPass,
+    view: vk::ImageView,
+    framebuffer: vk::Framebuffer,
+    device: Arc<Device>,
+}
+
+impl Overlay {
+    /// A pass over the first layer of `picture`, a target's own finished image of [`vk::Format::R8G8B8A8_SRGB`], which has to
+    /// outlive it. The picture is in `TRANSFER_SRC_OPTIMAL` before and after.
+    ///
+    /// # Errors
+    /// Out of memory.
+    pub fn new(device: &Arc<Device>, picture: &Image) -> Result<Self, GpuError> {
+        let mut overlay = Self {
+            extent: picture.info.extent,
+            pass: create_pass(device)?,
+            view: vk::ImageView::null(),
+            framebuffer: vk::Framebuffer::null(),
+            device: Arc::clone(device),
+        };
+        device.name(overlay.pass, "overlay pass");
+        let range = vk::ImageSubresourceRange::default()
+            .aspect_mask(vk::ImageAspectFlags::COLOR)
+            .level_count(1)
+            .layer_count(1);
+        let view = vk::ImageViewCreateInfo::default()
+            .image(picture.raw)
+            .view_type(vk::ImageViewType::TYPE_2D)
+            .format(FORMAT)
+            .subresource_range(range);
+        // SAFETY: the picture is alive, and was made to be seen in other formats of its size.
+        overlay.view =
+            unsafe { device.raw.create_image_view(&view, None) }.doing("creating an image view")?;
+        let views = [overlay.view];
+        let create = vk::FramebufferCreateInfo::default()
+            .render_pass(overlay.pass)
+            .attachments(&views)
+            .width(overlay.extent[0])
+            .height(overlay.extent[1])
+            .layers(1);
+        // SAFETY: pass and view are alive and match each other.
+        overlay.framebuffer =
+            unsafe { device.raw.create_framebuffer(&create, None) }.doing("creating a framebuffer")?;
+        Ok(overlay)
+    }
+
+    /// Compiles a pipeline for this pass; it is good for every other overlay too.
+    ///
+    /// # Errors
+    /// The driver refuses.
+    pub fn pipeline(
+        &self,
+        layout: vk::PipelineLayout,
+        info: &PipelineInfo<'_>,
+    ) -> Result<Pipeline, GpuError> {
+        Pipeline::within(&self.device, (self.pass, ONE), layout, info)
+    }
+
+    /// Begins the pass, and sets viewport and scissor to all of the picture.
+    pub fn begin(&self, commands: Recorder<'_>) {
+        let [width, height] = self.extent;
+        let area = vk::Rect2D { offset: vk::Offset2D::default(), extent: vk::Extent2D { width, height } };
+        let begin = vk::RenderPassBeginInfo::default()
+            .render_pass(self.pass)
+            .framebuffer(self.framebuffer)
+            .render_area(area);
+        #[expect(clippy::cast_precision_loss, reason = "sizes are far below 2^24")]
+        let viewport = vk::Viewport {
+            x: 0.0,
+            y: 0.0,
+            width: width as f32,
+            height: height as f32,
+            min_depth: 0.0,
+            max_depth: 1.0,
+        };
+        // SAFETY: `commands` is recording outside a pass; pass and framebuffer are alive.
+        unsafe {
+            self.device.raw.cmd_begin_render_pass(commands.raw, &begin, vk::SubpassContents::INLINE);
+            self.device.raw.cmd_set_viewport(commands.raw, 0, &[viewport]);
+            self.device.raw.cmd_set_scissor(commands.raw, 0, &[area]);
+        }
+    }
+
+    /// Ends the pass.
+    pub fn end(&self, commands: Recorder<'_>) {
+        // SAFETY: the pass begun by `begin` is open.
+        unsafe { self.device.raw.cmd_end_render_pass(commands.raw) };
+    }
+}
+
+impl Drop for Overlay {
+    fn drop(&mut self) {
+        // SAFETY: owners drop overlays only after the frames that use them have ended. Null handles are ignored.
+        unsafe {
+            self.device.raw.destroy_framebuffer(self.framebuffer, None);
+            self.device.raw.destroy_image_view(self.view, None);
+            self.device.raw.destroy_render_pass(self.pass, None);
+        }
+    }
+}
+
+fn create_pass(device: &Device) -> Result<vk::RenderPass, GpuError> {
+    use vk::{AccessFlags as A, PipelineStageFlags as S};
+    let layout = vk::ImageLayout::TRANSFER_SRC_OPTIMAL;
+    let attachments = [vk::AttachmentDescription::default()
+        .format(FORMAT)
+        .samples(ONE)
+        .load_op(vk::AttachmentLoadOp::LOAD)
+        .store_op(vk::AttachmentStoreOp::STORE)
+        .stencil_load_op(vk::AttachmentLoadOp::DONT_CARE)
+        .stencil_store_op(vk::AttachmentStoreOp::DONT_CARE)
+        .initial_layout(layout)
+        .final_layout(layout)];
+    let colors =
+        [vk::AttachmentReference::default().attachment(0).layout(vk::ImageLayout::COLOR_ATTACHMENT_OPTIMAL)];
+    let subpasses = [vk::SubpassDescription::default()
+        .pipeline_bind_point(vk::PipelineBindPoint::GRAPHICS)
+        .color_attachments(&colors)];
+    let drawn = (S::COLOR_ATTACHMENT_OUTPUT, A::COLOR_ATTACHMENT_WRITE | A::COLOR_ATTACHMENT_READ);
+    let dependencies = [
+        // The picture was drawn just before, and copied from in an earlier frame.
+        vk::SubpassDependency::default()
+            .src_subpass(vk::SUBPASS_EXTERNAL)
+            .dst_subpass(0)
+            .src_stage_mask(S::COLOR_ATTACHMENT_OUTPUT | S::TRANSFER)
+            .src_access_mask(A::COLOR_ATTACHMENT_WRITE)
+            .dst_stage_mask(drawn.0)
+            .dst_access_mask(drawn.1),
+        vk::SubpassDependency::default()
+            .src_subpass(0)
+            .dst_subpass(vk::SUBPASS_EXTERNAL)
+            .src_stage_mask(drawn.0)
+            .src_access_mask(A::COLOR_ATTACHMENT_WRITE)
+            .dst_stage_mask(S::TRANSFER)
+            .dst_access_mask(A::TRANSFER_READ),
+    ];
+    let create = vk::RenderPassCreateInfo::default()
+        .attachments(&attachments)
+        .subpasses(&subpasses)
+        .dependencies(&dependencies);
+    // SAFETY: `create` refers to locals that live past the call.
+    unsafe { device.raw.create_render_pass(&create, None) }.doing("creating a render pass")
+}

@@ -1,0 +1,108 @@
+//! egui in a window: events in, triangles out.
+
+use crate::draw::Painting;
+use egui::{Context, Pos2, Ui, ViewportId};
+use winit::event::{ElementState, WindowEvent};
+use winit::window::Window;
+
+/// Seconds that a frame of a recording counts as.
+type Step = Option<f64>;
+
+/// A context of egui's on a window, shown or not.
+pub struct Interface {
+    context: Context,
+    input: egui_winit::State,
+    shown: bool,
+    /// Events that a script has put in, before the window's own.
+    scripted: Vec<egui::Event>,
+    /// Where a script's pointer is: drawn, since nobody else draws it.
+    pointer: Option<Pos2>,
+    time: f64,
+    step: Step,
+}
+
+impl Interface {
+    /// Not shown at first. With `step`, its clock goes by so many seconds a frame, for recordings.
+    pub fn new(window: &Window, step: Step) -> Self {
+        let context = Context::default();
+        context.set_visuals(egui::Visuals::dark());
+        #[expect(clippy::cast_possible_truncation, reason = "a scale")]
+        let scale = window.scale_factor() as f32;
+        let input =
+            egui_winit::State::new(context.clone(), ViewportId::ROOT, window, Some(scale), None, None);
+        Self { context, input, shown: false, scripted: Vec::new(), pointer: None, time: 0.0, step }
+    }
+
+    /// egui's own.
+    pub const fn context(&self) -> &Context {
+        &self.context
+    }
+
+    /// Whether it is shown.
+    pub const fn is_shown(&self) -> bool {
+        self.shown
+    }
+
+    /// Shows it, or hides it.
+    pub const fn toggle(&mut self) {
+        self.shown = !self.shown;
+    }
+
+    /// Takes in an event; whether nobody else is to have it. What is let go of is everybody's business.
+    pub fn take(&mut self, window: &Window, event: &WindowEvent) -> bool {
+        if !self.shown {
+            return false;
+        }
+        let consumed = self.input.on_window_event(window, event).consumed;
+        let let_go = match event {
+            WindowEvent::KeyboardInput { event, .. } => event.state == ElementState::Released,
+            WindowEvent::MouseInput { state, .. } => *state == ElementState::Released,
+            _ => false,
+        };
+        consumed && !let_go
+    }
+
+    /// Puts in an event that no hand made.
+    pub fn put_in(&mut self, event: egui::Event) {
+        if let egui::Event::PointerMoved(at) = event {
+            self.pointer = Some(at);
+        }
+        self.scripted.push(event);
+    }
+
+    /// Runs `show` for a frame; nothing where it is not shown.
+    pub fn run(&mut self, window: &Window, mut show: impl FnMut(&mut Ui)) -> Option<Painting> {
+        if !self.shown {
+            return None;
+        }
+        let mut input = self.input.take_egui_input(window);
+        if let Some(step) = self.step {
+            self.time += step;
+            (input.time, input.focused) = (Some(self.time), true);
+        }
+        input.events.append(&mut self.scripted);
+        let pointer = self.pointer;
+        let output = self.context.run_ui(input, |ui| {
+            show(ui);
+            if let Some(at) = pointer {
+                draw_pointer(ui, at);
+            }
+        });
+        self.input.handle_platform_output(window, output.platform_output);
+        let meshes = self.context.tessellate(output.shapes, output.pixels_per_point);
+        Some(Painting { meshes, textures: output.textures_delta, scale: output.pixels_per_point })
+    }
+}
+
+/// A ring where the pointer of a script is.
+fn draw_pointer(ui: &Ui, at: Pos2) {
+    let layer = egui::LayerId::new(egui::Order::Debug, egui::Id::new("scripted pointer"));
+    let down = ui.input(|input| input.pointer.any_down());
+    let painter = ui.ctx().layer_painter(layer);
+    painter.circle(
+        at,
+        if down { 5.0 } else { 7.0 },
+        egui::Color32::from_white_alpha(if down { 200 } else { 60 }),
+        egui::Stroke::new(2.0, egui::Color32::WHITE),
+    );
+}
