@@ -20,9 +20,11 @@ mod reader;
 mod reference;
 mod schema;
 mod section;
+mod shadows;
 
 pub use error::{Place, SceneError};
 pub use reference::reference;
+pub use shadows::{ShadowSettings, Shadows};
 
 /// Most bytes of a scene file.
 pub const MAX_BYTES: u64 = 1 << 20;
@@ -85,6 +87,16 @@ impl Scene {
         assemble::assemble(text, origin)
     }
 
+    /// The same as headsets show it: without what is for screens alone.
+    #[must_use]
+    pub fn in_headset(&self) -> Self {
+        let mut scene = self.clone();
+        if scene.water.shadows.shadows == Shadows::Screen {
+            scene.water.shadows.shadows = Shadows::Off;
+        }
+        scene
+    }
+
     /// The scene that is drawn when none is named: `scenes/open_ocean.toml`, built in.
     ///
     /// # Errors
@@ -141,6 +153,8 @@ pub struct WaterSettings {
     pub foam_color: [f32; 3],
     /// Factor on the slopes used for shading, 1 is physical.
     pub detail: f64,
+    /// Shadows that the sun casts.
+    pub shadows: ShadowSettings,
 }
 
 /// A pinhole camera.
