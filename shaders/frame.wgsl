@@ -30,6 +30,18 @@ struct View {
     unused: array<vec4f, 2>,
 }
 
+// The sun's map, of what stands highest on the way to the sun: shadows.wgsl.
+struct SunMap {
+    // u is along.xyz . position + along.w.
+    along: vec4f,
+    // v is across.x x + across.z z + across.w; depth is across.y y + reach.x.
+    across: vec4f,
+    // x: see above; y, z: shadows are there as far as y - z distance, 0 to 1; w: depth that light comes through water.
+    reach: vec4f,
+    // x, y: half a texel along u and v; z: a texel and a half.
+    texels: vec4f,
+}
+
 struct Frame {
     views: array<View, 2>,
     // The same for the frame before, from positions relative to this frame's origin.
@@ -64,6 +76,7 @@ struct Frame {
     tone: vec4f,
     // x, y: angles from a view's axis where the vignette begins and where it is complete, radians.
     vignette: vec4f,
+    sun_map: SunMap,
 }
 
 @group(0) @binding(0) var<uniform> frame: Frame;

@@ -13,5 +13,5 @@ fn vertex_main(in: Patch, @builtin(view_index) view: u32) -> Varyings {
 
 @fragment
 fn fragment_main(in: Varyings) -> @location(0) vec4f {
-    return vec4f(shade(in), 1.0);
+    return vec4f(shade(in, vec2f(1.0)), 1.0);
 }

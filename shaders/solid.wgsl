@@ -1,43 +1,12 @@
-// Opaque things that float on the sea: unit meshes, turned and stretched, of one matt colour each.
-#include "body.wgsl"
-#include "light.wgsl"
-
-struct SolidVaryings {
-    @builtin(position) clip: vec4f,
-    @location(0) position: vec3f,
-    @location(1) normal: vec3f,
-    @location(2) @interpolate(flat) color: vec3f,
-    @location(3) @interpolate(flat) view: u32,
-}
-
-// Light that the sea sends up besides its own colour: the sky mirrored in a rough sea, as a share of the daylight.
-const MIRRORED: f32 = 0.06;
+// Opaque things that float on the sea.
+#include "matt.wgsl"
 
 @vertex
 fn vertex_main(in: Solid, @builtin(view_index) view: u32) -> SolidVaryings {
-    var out: SolidVaryings;
-    out.position = body_position(in);
-    // Normals shrink where the thing is stretched.
-    out.normal = in.x.xyz * (in.normal.x / dot(in.x.xyz, in.x.xyz))
-        + in.y.xyz * (in.normal.y / dot(in.y.xyz, in.y.xyz))
-        + in.z.xyz * (in.normal.z / dot(in.z.xyz, in.z.xyz));
-    out.clip = frame.views[view].projection * vec4f(out.position, 1.0);
-    // Depth is near / distance, so this divides the distance that depth stands for by 1 + w, everywhere alike.
-    out.clip.z *= 1.0 + in.place.w;
-    out.color = vec3f(in.x.w, in.y.w, in.z.w);
-    out.view = view;
-    return out;
+    return solid_seen(in, view);
 }
 
 @fragment
 fn fragment_main(in: SolidVaryings) -> @location(0) vec4f {
-    let to_eye = frame.views[in.view].eye.xyz - in.position;
-    let distance = length(to_eye);
-    let n = normalize(in.normal);
-    let sun = frame.sun.xyz;
-    // From above the sky lights it, from below the sea, which is lit by both.
-    let sea = (frame.sky_light.rgb + frame.sun_light.rgb * max(sun.y, 0.0)) * (PI * frame.deep.rgb + MIRRORED);
-    let daylight = frame.sun_light.rgb * saturate(dot(n, sun)) + mix(sea, frame.sky_light.rgb, 0.5 + 0.5 * n.y);
-    let color = in.color * daylight / PI;
-    return vec4f(tone_map(haze(color, -to_eye / distance, distance)), 1.0);
+    return vec4f(matt(in, 1.0), 1.0);
 }

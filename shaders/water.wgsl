@@ -102,7 +102,8 @@ fn foam_at(in: Varyings, compression: f32, distance: f32) -> Foam {
 
 // Cosines and weights are worked out first, and colours added up by them at the end: one number is a third of a colour.
 // Statements stand in the order that leaves Mesa's compiler the fewest waits: docs/quest.md.
-fn shade(in: Varyings) -> vec3f {
+// sun: shares of its light that reach the surface (x) and come through the crest (y), 1 where nothing casts a shadow.
+fn shade(in: Varyings, sun: vec2f) -> vec3f {
     let l = frame.sun.xyz;
     let square = dot(in.from_eye, in.from_eye);
     let inverse = inverseSqrt(square);
@@ -149,7 +150,7 @@ fn shade(in: Varyings) -> vec3f {
     let white = kept * foam.cover * foam.brightness;
     let matt = frame.deep.rgb * below + frame.foam.rgb * white;
     let glitter = water * sun_lobe(n_v, n_l, v_l, alpha_squared);
-    let of_sun = matt * saturate(n_l) + (frame.scatter.rgb * (through * below) + glitter);
+    let of_sun = matt * (saturate(n_l) * sun.x) + (frame.scatter.rgb * (through * below * sun.y) + glitter * sun.x);
     return tone_map(
         frame.sun_light.rgb * of_sun + frame.sky_light.rgb * matt + reflected * (water * reflectance)
             + far * (1.0 - kept)

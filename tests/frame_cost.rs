@@ -27,6 +27,9 @@ fn fetches_are_documented() {
         ("pixel of the hidden area", [s::HIDDEN_AREA_FRAGMENT_MAIN_FETCHES; 4]),
         ("vertex of a patch, motion pass", s::MOTION_PATCH_MAIN_FETCHES),
         ("pixel of the motion pass", [s::MOTION_FRAGMENT_MAIN_FETCHES; 4]),
+        ("vertex of a patch that casts a shadow", s::SUN_MAP_PATCH_MAIN_FETCHES),
+        ("pixel of the sea with shadows", s::SHADOWED_WATER_MAIN_FETCHES),
+        ("pixel of a solid with shadows", [s::SHADOWED_MATT_MAIN_FETCHES; 4]),
         ("pixel of the vignette's rim", [s::VIGNETTE_FRAGMENT_MAIN_FETCHES; 4]),
     ];
     for (what, [one, two, three, four]) in rows {

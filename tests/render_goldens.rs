@@ -7,7 +7,8 @@ use std::collections::BTreeSet;
 use support::golden;
 use support::program::names;
 use support::stage::{SCENES, Stage, eye, shipped};
-use swell::draw::{Buoy, Eye, Fov, Hand, Look, Pose, Raft, hand, ray};
+use swell::draw::{Buoy, Eye, Fov, Hand, Look, Pose, Raft, Shape, Solid, hand, ray};
+use swell::scene::Shadows;
 use swell::sea::{Sea, SeaMaps, Surface};
 
 /// Seconds: any moment but 0, where every harmonic begins.
@@ -92,6 +93,40 @@ fn afloat(maps: &SeaMaps, x: f64, z: f64, half: f64) -> Pose {
     Pose { position: DVec3::new(x, y, z), axes: Mat3::from_cols(right, up, right.cross(up)) }
 }
 
+/// A raft and a buoy on a swell towards a low sun, which throws the shadows of all of it this way.
+#[test]
+fn shadows() {
+    let mut scene = shipped("calm");
+    let mut sea = Sea::new(&scene.sea).unwrap();
+    let mut maps = sea.new_maps();
+    sea.step(TIME, &mut maps).unwrap();
+    scene.sky.sun_elevation = 14_f64.to_radians();
+    scene.sky.sun_azimuth = 125_f64.to_radians();
+    scene.water.shadows.shadows = Shadows::On;
+    scene.water.shadows.distance = 60.0;
+    let raft = afloat(&maps, 0.6, -6.5, 1.0);
+    let raft = Pose { position: raft.at(0.25 * Vec3::Y), ..raft };
+    let from = DVec3::new(0.0, 2.4, 0.0);
+    let mut solids = Raft { pose: raft, length: 2.4, width: 2.0, freeboard: 0.25 }.solids(from).to_vec();
+    let crate_on_it = raft.at(Vec3::new(-0.4, 0.3, -0.3));
+    let shape = Shape::Box;
+    let size = Vec3::new(0.5, 0.6, 0.5);
+    solids.push(Solid {
+        shape,
+        position: crate_on_it,
+        axes: raft.axes,
+        size,
+        color: [0.5, 0.4, 0.3],
+        lead: 0.0,
+    });
+    let pose = afloat(&maps, -2.6, -8.0, 0.4);
+    solids.extend(Buoy { pose, diameter: 0.9, mast: 1.8, color: [0.70, 0.05, 0.02] }.solids());
+    let mut stage = Stage::new(&scene, SIZE, 1, Look::Water, TIME);
+    stage.host.set_scenery(&solids, 0.0);
+    let fov = Fov::symmetric(0.9, stage.aspect());
+    golden::check("shadows", &stage.picture(TIME, &[eye(from, [0.05, -0.3, 0.0], fov)]));
+}
+
 /// Aboard a raft among buoys, a controller in each hand, the vignette half closed.
 #[test]
 fn raft() {
@@ -132,8 +167,9 @@ fn raft() {
 #[test]
 fn every_golden_picture_has_a_test_and_is_small() {
     let wanted = SCENES.map(str::to_owned).into_iter();
-    let wanted =
-        wanted.chain(VIEWS.map(|view| format!("debug_{view}"))).chain(["stereo", "raft"].map(str::to_owned));
+    let wanted = wanted
+        .chain(VIEWS.map(|view| format!("debug_{view}")))
+        .chain(["stereo", "raft", "shadows"].map(str::to_owned));
     let wanted: BTreeSet<String> = wanted.map(|name| format!("{name}.png")).collect();
     let found: BTreeSet<String> = names(&golden::folder()).into_iter().collect();
     assert_eq!(found, wanted);

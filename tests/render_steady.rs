@@ -26,11 +26,11 @@ const COUNTED: u64 = 300;
 const SIZE: [u32; 2] = [96, 64];
 
 /// Two cascades, large enough for every worker to have had its part before the counting begins (each makes its working
-/// space when it first has one), foam with a memory (a tick every third frame), levels of detail, a buoy.
+/// space when it first has one), foam with a memory (a tick every third frame), levels of detail, a buoy, shadows.
 fn scene() -> Scene {
     let text = "[sea]\nresolution = 128\nwind_speed = 9\n[sea.foam]\nfade_time = 1.0\n[[sea.cascade]]\npatch_size = 90.0\n\
                 [[sea.cascade]]\npatch_size = 17.0\nrotation_deg = 20.0\n[lod]\nquality = \"low\"\nsize = 512.0\nlevels = 4\n\
-                [[buoy]]\nat = [3.0, -6.0]\n";
+                [water]\nshadows = \"on\"\nshadow_resolution = 256\n[[buoy]]\nat = [3.0, -6.0]\n";
     Scene::parse(text, "steady").unwrap()
 }
 

@@ -31,6 +31,10 @@ fn out_of_range_names_place_value_and_range() {
         "x.toml:2:20: water.deep_color = 1.5 is out of range: 0 to 1",
     );
     check(
+        "[water]\nshadow_distance = 5\n",
+        "x.toml:2:19: water.shadow_distance = 5 is out of range: 10 to 2000 m",
+    );
+    check(
         "[sky]\nsun_elevation_deg = -5.1\n",
         "x.toml:2:21: sky.sun_elevation_deg = -5.1 is out of range: -5 to 90 degrees",
     );
@@ -78,6 +82,10 @@ fn resolution_is_a_power_of_two() {
     check("[sea]\nresolution = 100\n", "x.toml:2:14: sea.resolution = 100 is not a power of two: 16 to 512");
     check("[sea]\nresolution = 1024\n", "x.toml:2:14: sea.resolution = 1024 is out of range: 16 to 512");
     check(
+        "[water]\nshadow_resolution = 1000\n",
+        "x.toml:2:21: water.shadow_resolution = 1000 is not a power of two: 256 to 4096 texels",
+    );
+    check(
         "[sea]\nresolution = 256.0\n",
         "x.toml:2:14: sea.resolution = 256.0 is a number with a fraction; give a power of two: 16 to 512",
     );
@@ -122,6 +130,10 @@ fn unknown_words_list_the_words_there_are() {
     check(
         "[sea]\nmodel = \"sines\"\n",
         "x.toml:2:9: sea.model = \"sines\" is not one of: \"fft\", \"waves\", \"fbm\"",
+    );
+    check(
+        "[water]\nshadows = \"soft\"\n",
+        "x.toml:2:11: water.shadows = \"soft\" is not one of: \"off\", \"screen\", \"on\"",
     );
 }
 

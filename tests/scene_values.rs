@@ -3,7 +3,7 @@
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use swell::lod::Quality;
 use swell::raft::{BuoySettings, Horizon, RaftSettings, Rider};
-use swell::scene::{Scene, SkySource};
+use swell::scene::{Scene, ShadowSettings, Shadows, SkySource};
 use swell::sea::{NormalKind, Sea, Spectrum, Surface, split_bands};
 
 fn parse(text: &str) -> Scene {
@@ -28,6 +28,21 @@ fn an_empty_file_is_a_scene_of_one_cascade_with_all_waves() {
 }
 
 #[test]
+fn headsets_have_shadows_only_where_the_scene_says_so() {
+    for (text, anywhere, in_headset) in [
+        ("", Shadows::Off, Shadows::Off),
+        ("[water]\nshadows = 'screen'\n", Shadows::Screen, Shadows::Off),
+        ("[water]\nshadows = 'on'\n", Shadows::On, Shadows::On),
+    ] {
+        let scene = parse(text);
+        let worn = scene.in_headset();
+        assert_eq!((scene.water.shadows.shadows, worn.water.shadows.shadows), (anywhere, in_headset));
+        let water = swell::scene::WaterSettings { shadows: scene.water.shadows, ..worn.water };
+        assert_eq!(Scene { water, ..worn }, scene, "and nothing else");
+    }
+}
+
+#[test]
 fn every_key_reaches_its_own_field() {
     let scene = parse(
         "[sea]\nmodel = 'fft'\nresolution = 64\npatch_size = 2\nwind_speed = 3\nwind_direction_deg = 90\n\
@@ -37,6 +52,7 @@ fn every_key_reaches_its_own_field() {
          [lod]\nsize = 512\nquality = 'ultra'\nlevels = 3\nmax_height = 4\nreach = 5\nskirt_extent = 6\n\
          [sky]\nturbidity = 2\nclouds = 0.25\nsun_azimuth_deg = -180\nsun_elevation_deg = 90\nsun_intensity = 3\nexposure = -4\nvisibility = 500\n\
          [water]\ndeep_color = [0.1, 0.2, 0.3]\nscatter_color = [0.4, 0.5, 0.6]\nscatter = 7\nfoam_color = [0.8, 0.9, 1]\ndetail = 2.5\n\
+         shadows = 'screen'\nshadow_resolution = 512\nshadow_distance = 90\n\
          [camera]\neye = [1, 2, 3]\nlook = [4, 5, 6]\nfov_deg = 90\neye_separation = 0.5\n\
          [raft]\nlength = 3\nwidth = 4\nfreeboard = 0.5\nheave_frequency = 0.6\nheave_damping = 0.75\ntilt_frequency = 0.8\n\
          tilt_damping = 0.9\nhorizon = 'still'\nheld_heave = 0.25\nglide_speed = 11\nglide_acceleration = 12\ndead_zone = 0.3\n\
@@ -62,6 +78,8 @@ fn every_key_reaches_its_own_field() {
     let water = &scene.water;
     assert_eq!((water.deep_color, water.scatter_color), ([0.1, 0.2, 0.3], [0.4, 0.5, 0.6]));
     assert_eq!((water.scatter, water.foam_color, water.detail), (7.0, [0.8, 0.9, 1.0], 2.5));
+    let shadows = ShadowSettings { shadows: Shadows::Screen, resolution: 512, distance: 90.0 };
+    assert_eq!(water.shadows, shadows);
     let camera = &scene.camera;
     assert_eq!((camera.eye, camera.look), ([1.0, 2.0, 3.0], [4.0, 5.0, 6.0]));
     assert_eq!((camera.fov_y, camera.eye_separation), (FRAC_PI_2, 0.5));

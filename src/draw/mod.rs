@@ -23,11 +23,13 @@ mod renderer;
 mod sea_textures;
 #[cfg(not(target_os = "android"))]
 mod shader_reload;
+mod shadow;
 mod sky;
 mod sky_map;
 mod sky_picture;
 mod solid_meshes;
 mod solids;
+mod sun_map;
 mod uniforms;
 mod vertex_input;
 mod vignette;

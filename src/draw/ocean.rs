@@ -25,6 +25,21 @@ pub struct Layer {
     pub lines: bool,
 }
 
+impl Layer {
+    fn pipeline(&self, vertex: Stage) -> PipelineInfo<'static> {
+        PipelineInfo {
+            name: "sea",
+            vertex,
+            fragment: (self.fragment, self.entry),
+            input: VertexInput::default(),
+            depth: if self.lines { DepthUse::Raised } else { DepthUse::Solid },
+            blend: Blend::Opaque,
+            cull: false,
+            lines: self.lines,
+        }
+    }
+}
+
 /// Meshes and pipelines of the sea's surface.
 pub struct Ocean {
     layers: Vec<[Pipeline; 2]>,
@@ -106,6 +121,25 @@ impl Ocean {
         selection: &Selection,
     ) -> DrawCounts {
         commands.begin_label(c"sea");
+        let mut counts = self.draw_patches(patches, commands, instances, selection);
+        skirt.bind(commands);
+        commands.vertex_buffer(0, self.meshes.skirt_vertices.raw, 0);
+        commands.index_buffer(&self.meshes.skirt_indices);
+        commands.draw_indexed(0..lod::skirt::SKIRT_INDICES as u32, 0..1);
+        let skirt = [lod::skirt::SKIRT_INDICES / 3, lod::skirt::SKIRT_VERTICES].map(|n| n as u32);
+        counts += DrawCounts::draw(skirt[0], skirt[1], 1);
+        commands.end_label();
+        counts
+    }
+
+    /// The patches alone.
+    pub fn draw_patches(
+        &self,
+        patches: &Pipeline,
+        commands: Recorder<'_>,
+        instances: (&UploadRing, u64),
+        selection: &Selection,
+    ) -> DrawCounts {
         let mut counts = DrawCounts::default();
         patches.bind(commands);
         commands.vertex_buffer(0, self.meshes.vertices.raw, 0);
@@ -119,13 +153,6 @@ impl Ocean {
                 DrawCounts::draw(triangles, self.meshes.pattern_vertices[batch.pattern.index()], patches);
             counts.patches += patches;
         }
-        skirt.bind(commands);
-        commands.vertex_buffer(0, self.meshes.skirt_vertices.raw, 0);
-        commands.index_buffer(&self.meshes.skirt_indices);
-        commands.draw_indexed(0..lod::skirt::SKIRT_INDICES as u32, 0..1);
-        let skirt = [lod::skirt::SKIRT_INDICES / 3, lod::skirt::SKIRT_VERTICES].map(|n| n as u32);
-        counts += DrawCounts::draw(skirt[0], skirt[1], 1);
-        commands.end_label();
         counts
     }
 
@@ -174,24 +201,44 @@ pub fn surface(
     vertex: [Stage; 2],
     layer: &Layer,
 ) -> Result<[Pipeline; 2], GpuError> {
-    let make = |name, vertex, input| {
-        let info = PipelineInfo {
-            name,
-            vertex,
-            fragment: (layer.fragment, layer.entry),
-            input,
-            depth: if layer.lines { DepthUse::Raised } else { DepthUse::Solid },
-            blend: Blend::Opaque,
-            cull: false,
-            lines: layer.lines,
-        };
-        Pipeline::new(device, target, bindings.pipeline_layout, &info)
-    };
-    Ok([make("patches", vertex[0], PATCH_INPUT)?, make("skirt", vertex[1], SKIRT_INPUT)?])
+    Ok([
+        patches(device, target, bindings, vertex[0], layer)?,
+        skirt(device, target, bindings, vertex[1], layer)?,
+    ])
+}
+
+/// The patches' pipeline alone.
+///
+/// # Errors
+/// As [`surface`].
+pub fn patches(
+    device: &Arc<Device>,
+    target: &Target,
+    bindings: &Bindings,
+    vertex: Stage,
+    layer: &Layer,
+) -> Result<Pipeline, GpuError> {
+    let info = PipelineInfo { name: "patches", input: PATCH_INPUT, ..layer.pipeline(vertex) };
+    Pipeline::new(device, target, bindings.pipeline_layout, &info)
+}
+
+/// The skirt's pipeline alone.
+///
+/// # Errors
+/// As [`surface`].
+pub fn skirt(
+    device: &Arc<Device>,
+    target: &Target,
+    bindings: &Bindings,
+    vertex: Stage,
+    layer: &Layer,
+) -> Result<Pipeline, GpuError> {
+    let info = PipelineInfo { name: "skirt", input: SKIRT_INPUT, ..layer.pipeline(vertex) };
+    Pipeline::new(device, target, bindings.pipeline_layout, &info)
 }
 
 /// `Patch` of `shaders/patch.wgsl`: a [`GridVertex`], and an instance of [`lod::Instance`].
-const PATCH_INPUT: VertexInput<'static> = VertexInput {
+pub const PATCH_INPUT: VertexInput<'static> = VertexInput {
     bindings: &[by_vertex(0, size_of::<GridVertex>()), by_instance(1, size_of::<lod::Instance>())],
     attributes: &[
         field(0, 0, vk::Format::R16G16B16A16_SFLOAT, 0),

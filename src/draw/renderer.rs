@@ -11,6 +11,7 @@ use super::motion::{self, Motion};
 use super::ocean::Ocean;
 use super::sea_textures::SeaTextures;
 use super::shaders::BINDINGS;
+use super::shadow::Shadow;
 use super::sky::Sky;
 use super::sky_map::{self, SkyMap};
 use super::solids::{Solids, Uploaded};
@@ -21,7 +22,7 @@ use crate::gpu::{
     Turn, UploadRing, upload_image,
 };
 use crate::lod::{Frustum, LodSettings, Quadtree, Quality, vertex_spacing};
-use crate::scene::Scene;
+use crate::scene::{Scene, Shadows};
 use ash::vk;
 use glam::DVec3;
 use std::sync::Arc;
@@ -48,6 +49,7 @@ pub struct Renderer {
     sky: Option<Sky>,
     vignette: Option<Vignette>,
     motion: Option<Motion>,
+    shadow: Option<Shadow>,
     latest: Option<Latest>,
     cascades: usize,
     look: Look,
@@ -81,8 +83,10 @@ impl Renderer {
         let still = Frame::still(scene, sky_map, scene.sea.expected_rms_height(), spacing);
         let limits = &device.physical.limits;
         let uniform_align = limits.min_uniform_buffer_offset_alignment.max(16);
+        // Patches that are seen, and where there are shadows those that cast them.
+        let surfaces = if scene.water.shadows.shadows == Shadows::Off { 1 } else { 2 };
         let share = SeaTextures::bytes(&scene.sea)
-            + Ocean::instance_bytes(MOST_PATCHES)
+            + surfaces * Ocean::instance_bytes(MOST_PATCHES)
             + 2 * Solids::BYTES
             + size_of::<Frame>() as u64
             + uniform_align
@@ -91,7 +95,9 @@ impl Renderer {
         let bindings = Bindings::new(device, BINDINGS, FRAMES_IN_FLIGHT)?;
         let hidden_area = HiddenArea::new(device, target, &bindings)?;
         let solids = if look.has_solids() { Some(Solids::new(device, target, &bindings)?) } else { None };
-        let ocean = Ocean::new(device, target, &bindings, &scene.lod, cascades, &look.layers(cascades))?;
+        let shadow = Shadow::new(device, target, &bindings, scene, sky_map, look)?;
+        let layers = if shadow.is_some() { Vec::new() } else { look.layers(cascades) };
+        let ocean = Ocean::new(device, target, &bindings, &scene.lod, cascades, &layers)?;
         let sky = if look.has_sky() { Some(Sky::new(device, target, &bindings)?) } else { None };
         let vignette =
             if look.has_vignette() { Some(Vignette::new(device, target, &bindings)?) } else { None };
@@ -111,6 +117,9 @@ impl Renderer {
                 11 => Resource::Sampler(&shared.2[0]),
                 12 => Resource::Sampler(&shared.2[1]),
                 13 => Resource::Sampler(&shared.2[2]),
+                // Shaders without shadows never look: any image and any sampler will do there.
+                20 => Resource::Texture(shadow.as_ref().map_or(&shared.1, |shadow| &shadow.map.image)),
+                21 => Resource::Sampler(shadow.as_ref().map_or(&shared.2[1], |shadow| &shadow.sampler)),
                 _ => Resource::Texture(&before.displacement[(binding as usize - 14).min(cascades - 1)]),
             });
         }
@@ -121,6 +130,7 @@ impl Renderer {
             sky,
             vignette,
             motion: None,
+            shadow,
             latest: None,
             cascades,
             look,
@@ -157,12 +167,16 @@ impl Renderer {
         self.ring.begin(slot as u64);
         let origin = DVec3::new(selection.origin().x, 0.0, selection.origin().y);
         self.still.turn(moment, origin, self.constant);
+        if let Some(shadow) = &mut self.shadow {
+            self.still.cast(shadow.fit(moment, head).uniforms(origin));
+        }
         self.latest = None;
         let before = self.motion.as_ref().and_then(|motion| motion.before(slot));
         self.still.look_back(before.map_or(eyes, |before| before.eyes), origin);
         let uniforms = self.ring.push(bytemuck::bytes_of(&self.still), self.uniform_align)?;
         self.textures[slot].upload(commands, &mut self.ring, moment.maps)?;
         let instances = Ocean::upload(&mut self.ring, selection)?;
+        let casters = self.shadow.as_ref().map(|own| own.upload(&mut self.ring)).transpose()?;
         let (mut solids, mut solids_before) = (Uploaded::default(), None);
         if let Some(own) = &mut self.solids {
             solids = own.upload(&mut self.ring, moment.solids, origin)?;
@@ -173,13 +187,26 @@ impl Renderer {
         }
         let uniforms = u32::try_from(uniforms).unwrap_or(u32::MAX);
         let looks_back = before.is_some();
+        let mut counts = DrawCounts::default();
+        if let (Some(shadow), Some(casters)) = (&self.shadow, casters) {
+            // A pass of several views forgets what was bound before it: both passes bind.
+            self.bindings.bind(commands, slot, uniforms);
+            let floating = (self.solids.as_ref(), &solids);
+            counts += shadow.draw(commands, &self.ring, (&self.ocean, casters), floating);
+        }
         target.begin(commands, turn, self.look.clear());
         self.bindings.bind(commands, slot, uniforms);
-        let mut counts = self.hidden_area.draw(commands);
+        counts += self.hidden_area.draw(commands);
         if let Some(own) = &self.solids {
-            counts += own.draw(commands, &self.ring, &solids);
+            let lit = self.shadow.as_ref().map_or(own.pipeline(), |shadow| &shadow.solids);
+            counts += own.draw_with(lit, commands, &self.ring, &solids);
         }
-        counts += self.ocean.draw(commands, &self.ring, instances, selection);
+        counts += match &self.shadow {
+            Some(shadow) => {
+                self.ocean.draw_with(&shadow.surface, commands, (&self.ring, instances), selection)
+            }
+            None => self.ocean.draw(commands, &self.ring, instances, selection),
+        };
         if let Some(sky) = &self.sky {
             counts += sky.draw(commands);
         }
@@ -264,6 +291,9 @@ impl Renderer {
         let settings = LodSettings { quality, ..scene.lod };
         let tree = Quadtree::new(&settings)?;
         self.ocean.set_meshes(device, &settings)?;
+        if let Some(shadow) = &mut self.shadow {
+            shadow.set_lod(&settings)?;
+        }
         let spacing = spacing(&tree);
         self.still.set_lod(scene, spacing);
         self.constant.growth = spacing.per_metre;

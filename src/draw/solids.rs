@@ -50,6 +50,13 @@ pub struct Solid {
     pub lead: f32,
 }
 
+impl Solid {
+    /// World height that no part of it is above.
+    pub(super) fn top(&self) -> f64 {
+        self.position.y + 0.5 * f64::from(self.size.length())
+    }
+}
+
 /// Where something is and how it is turned.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pose {
@@ -184,12 +191,12 @@ impl Solids {
         Ok(ring.push(bytemuck::cast_slice(&self.instances), 16)?)
     }
 
-    /// Draws what was uploaded, inside the pass: one call for each shape that there is.
-    pub fn draw(&self, commands: Recorder<'_>, ring: &UploadRing, uploaded: &Uploaded) -> DrawCounts {
-        self.draw_with(&self.pipeline, commands, ring, uploaded)
+    /// The pipeline of solids on which no shadows fall.
+    pub const fn pipeline(&self) -> &Pipeline {
+        &self.pipeline
     }
 
-    /// The same with another pipeline.
+    /// Draws what was uploaded, inside the pass: one call for each shape that there is.
     pub fn draw_with(
         &self,
         pipeline: &Pipeline,
@@ -222,7 +229,7 @@ impl Solids {
 const ROW: vk::Format = vk::Format::R32G32B32A32_SFLOAT;
 
 /// `Solid` of `shaders/body.wgsl`.
-const INPUT: VertexInput<'static> = VertexInput {
+pub const INPUT: VertexInput<'static> = VertexInput {
     bindings: &[by_vertex(0, size_of::<SolidVertex>()), by_instance(1, size_of::<SolidInstance>())],
     attributes: &[
         field(0, 0, vk::Format::R32G32B32_SFLOAT, 0),

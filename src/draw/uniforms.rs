@@ -34,6 +34,16 @@ pub struct View {
     unused: [Vec4; 2],
 }
 
+/// Where positions lie on the sun's map, and how far shadows reach.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, Pod, Zeroable)]
+pub struct SunMap {
+    pub along: [f32; 4],
+    pub across: [f32; 4],
+    pub reach: [f32; 4],
+    pub texels: [f32; 4],
+}
+
 /// Everything shaders see but textures. Fields as in the WGSL, where each is explained.
 #[repr(C)]
 #[derive(Clone, Copy, Default, Pod, Zeroable)]
@@ -54,6 +64,7 @@ pub struct Frame {
     air: Vec4,
     tone: Vec4,
     vignette: Vec4,
+    sun_map: SunMap,
 }
 
 const _: () = assert!(size_of::<Frame>() == UNIFORM_SIZE, "Frame and shaders/frame.wgsl differ");
@@ -141,6 +152,11 @@ impl Frame {
             (spacing.finest / spacing.per_metre).powi(2) as f32,
             (spacing.coarsest / spacing.per_metre).powi(2) as f32,
         );
+    }
+
+    /// Tells of the sun's map.
+    pub const fn cast(&mut self, map: SunMap) {
+        self.sun_map = map;
     }
 
     /// Tells where `eyes` were in the frame before.

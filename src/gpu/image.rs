@@ -143,7 +143,7 @@ impl Image {
     /// Colour or depth.
     pub const fn aspect(&self) -> vk::ImageAspectFlags {
         match self.info.format {
-            vk::Format::D32_SFLOAT => vk::ImageAspectFlags::DEPTH,
+            vk::Format::D32_SFLOAT | vk::Format::D16_UNORM => vk::ImageAspectFlags::DEPTH,
             _ => vk::ImageAspectFlags::COLOR,
         }
     }
@@ -198,7 +198,7 @@ impl Drop for Image {
     }
 }
 
-/// A trilinear sampler.
+/// A trilinear sampler, or one that compares depths.
 pub struct Sampler {
     /// Vulkan's handle.
     pub raw: vk::Sampler,
@@ -217,21 +217,42 @@ impl Sampler {
         anisotropy: f32,
     ) -> Result<Self, GpuError> {
         let most = device.physical.limits.max_sampler_anisotropy;
-        let info = vk::SamplerCreateInfo::default()
-            .mag_filter(vk::Filter::LINEAR)
-            .min_filter(vk::Filter::LINEAR)
-            .mipmap_mode(vk::SamplerMipmapMode::LINEAR)
-            .address_mode_u(address)
-            .address_mode_v(address)
-            .address_mode_w(address)
+        let info = linear(address)
             .anisotropy_enable(device.physical.anisotropy && anisotropy > 1.0)
-            .max_anisotropy(anisotropy.clamp(1.0, most.max(1.0)))
-            .max_lod(vk::LOD_CLAMP_NONE);
+            .max_anisotropy(anisotropy.clamp(1.0, most.max(1.0)));
+        Self::create(device, name, &info)
+    }
+
+    /// Of a [`super::DepthMap`]: 1 where a depth is at least the map's, mixed over the four texels around; 1 beyond it.
+    ///
+    /// # Errors
+    /// Out of memory.
+    pub fn comparing(device: &Arc<Device>, name: &str) -> Result<Self, GpuError> {
+        let info = linear(vk::SamplerAddressMode::CLAMP_TO_BORDER)
+            // Nothing is lower than depth 0.
+            .border_color(vk::BorderColor::FLOAT_OPAQUE_BLACK)
+            .compare_enable(true)
+            .compare_op(vk::CompareOp::GREATER_OR_EQUAL);
+        Self::create(device, name, &info)
+    }
+
+    fn create(device: &Arc<Device>, name: &str, info: &vk::SamplerCreateInfo<'_>) -> Result<Self, GpuError> {
         // SAFETY: the device lives; `info` keeps to its features and limits.
-        let raw = unsafe { device.raw.create_sampler(&info, None) }.doing("creating a sampler")?;
+        let raw = unsafe { device.raw.create_sampler(info, None) }.doing("creating a sampler")?;
         device.name(raw, name);
         Ok(Self { raw, device: Arc::clone(device) })
     }
+}
+
+fn linear(address: vk::SamplerAddressMode) -> vk::SamplerCreateInfo<'static> {
+    vk::SamplerCreateInfo::default()
+        .mag_filter(vk::Filter::LINEAR)
+        .min_filter(vk::Filter::LINEAR)
+        .mipmap_mode(vk::SamplerMipmapMode::LINEAR)
+        .address_mode_u(address)
+        .address_mode_v(address)
+        .address_mode_w(address)
+        .max_lod(vk::LOD_CLAMP_NONE)
 }
 
 impl Drop for Sampler {

@@ -1,5 +1,6 @@
 //! Graphics pipelines.
 
+use super::depth_map::DepthMap;
 use super::device::Device;
 use super::error::{Doing, GpuError};
 use super::recorder::Recorder;
@@ -61,6 +62,36 @@ pub struct PipelineInfo<'a> {
     pub lines: bool,
 }
 
+/// What a pipeline that draws depth alone is made from.
+#[derive(Clone, Copy)]
+pub struct DepthInfo<'a> {
+    /// Name for validation messages and captures.
+    pub name: &'a str,
+    /// SPIR-V of the vertex stage and its entry point.
+    pub vertex: (&'a [u8], &'a std::ffi::CStr),
+    /// Vertex buffers.
+    pub input: VertexInput<'a>,
+    /// Depth is lowered by so many of its smallest steps (first), and so many times what it changes by over a texel (second).
+    pub lowered: [f32; 2],
+}
+
+/// What every pipeline is made from.
+struct Recipe<'a> {
+    name: &'a str,
+    pass: vk::RenderPass,
+    samples: vk::SampleCountFlags,
+    vertex: (&'a [u8], &'a std::ffi::CStr),
+    /// Without one only depth is drawn.
+    fragment: Option<(&'a [u8], &'a std::ffi::CStr)>,
+    input: VertexInput<'a>,
+    depth: DepthUse,
+    /// Constant and by slope, towards the viewer.
+    bias: Option<[f32; 2]>,
+    blend: Blend,
+    cull: bool,
+    lines: bool,
+}
+
 /// A compiled pipeline.
 pub struct Pipeline {
     raw: vk::Pipeline,
@@ -92,15 +123,58 @@ impl Pipeline {
             let feature = "fillModeNonSolid, which --debug wireframe needs".to_owned();
             return Err(GpuError::Missing { device: device.physical.name.clone(), feature });
         }
+        let recipe = Recipe {
+            name: info.name,
+            pass,
+            samples,
+            vertex: info.vertex,
+            fragment: Some(info.fragment),
+            input: info.input,
+            depth: info.depth,
+            bias: (info.depth == DepthUse::Raised).then_some([8.0, 1.0]),
+            blend: info.blend,
+            cull: info.cull,
+            lines: info.lines,
+        };
+        Self::create(device, layout, &recipe)
+    }
+
+    /// Compiles a pipeline that draws triangles of either side into `map`.
+    ///
+    /// # Errors
+    /// The driver refuses.
+    pub fn depth_only(
+        device: &Arc<Device>,
+        map: &DepthMap,
+        layout: vk::PipelineLayout,
+        info: &DepthInfo<'_>,
+    ) -> Result<Self, GpuError> {
+        let recipe = Recipe {
+            name: info.name,
+            pass: map.pass(),
+            samples: vk::SampleCountFlags::TYPE_1,
+            vertex: info.vertex,
+            fragment: None,
+            input: info.input,
+            depth: DepthUse::Solid,
+            bias: Some(info.lowered.map(|factor| -factor)),
+            blend: Blend::Opaque,
+            cull: false,
+            lines: false,
+        };
+        Self::create(device, layout, &recipe)
+    }
+
+    fn create(device: &Arc<Device>, layout: vk::PipelineLayout, info: &Recipe<'_>) -> Result<Self, GpuError> {
         let vertex = Module::new(device, info.vertex.0)?;
-        let fragment = Module::new(device, info.fragment.0)?;
-        let stage = |flag, module: &Module, entry| {
+        let fragment = info.fragment.map(|(spirv, _)| Module::new(device, spirv)).transpose()?;
+        let stage = |flag, module: &Module<'_>, entry| {
             vk::PipelineShaderStageCreateInfo::default().stage(flag).module(module.raw).name(entry)
         };
-        let stages = [
-            stage(vk::ShaderStageFlags::VERTEX, &vertex, info.vertex.1),
-            stage(vk::ShaderStageFlags::FRAGMENT, &fragment, info.fragment.1),
-        ];
+        let mut stages = vec![stage(vk::ShaderStageFlags::VERTEX, &vertex, info.vertex.1)];
+        if let (Some(module), Some((_, entry))) = (&fragment, info.fragment) {
+            stages.push(stage(vk::ShaderStageFlags::FRAGMENT, module, entry));
+        }
         let input = vk::PipelineVertexInputStateCreateInfo::default()
             .vertex_binding_descriptions(info.input.bindings)
             .vertex_attribute_descriptions(info.input.attributes);
@@ -108,16 +182,16 @@ impl Pipeline {
             .topology(vk::PrimitiveTopology::TRIANGLE_LIST);
         let viewport = vk::PipelineViewportStateCreateInfo::default().viewport_count(1).scissor_count(1);
         let polygon = if info.lines { vk::PolygonMode::LINE } else { vk::PolygonMode::FILL };
-        let raised = info.depth == DepthUse::Raised;
+        let [constant, slope] = info.bias.unwrap_or_default();
         let raster = vk::PipelineRasterizationStateCreateInfo::default()
             .polygon_mode(polygon)
             .cull_mode(if info.cull { vk::CullModeFlags::BACK } else { vk::CullModeFlags::NONE })
             .front_face(vk::FrontFace::COUNTER_CLOCKWISE)
             .line_width(1.0)
-            .depth_bias_enable(raised)
-            .depth_bias_constant_factor(8.0)
-            .depth_bias_slope_factor(1.0);
-        let samples = vk::PipelineMultisampleStateCreateInfo::default().rasterization_samples(samples);
+            .depth_bias_enable(info.bias.is_some())
+            .depth_bias_constant_factor(constant)
+            .depth_bias_slope_factor(slope);
+        let samples = vk::PipelineMultisampleStateCreateInfo::default().rasterization_samples(info.samples);
         let depth = vk::PipelineDepthStencilStateCreateInfo::default()
             .depth_test_enable(info.depth != DepthUse::Ignored)
             .depth_write_enable(matches!(info.depth, DepthUse::Solid | DepthUse::Raised))
@@ -132,7 +206,8 @@ impl Pipeline {
             .src_alpha_blend_factor(vk::BlendFactor::ZERO)
             .dst_alpha_blend_factor(vk::BlendFactor::ONE)
             .color_write_mask(vk::ColorComponentFlags::RGBA)];
-        let blend = vk::PipelineColorBlendStateCreateInfo::default().attachments(&blends);
+        let colors = if fragment.is_some() { &blends[..] } else { &[] };
+        let blend = vk::PipelineColorBlendStateCreateInfo::default().attachments(colors);
         let dynamic = [vk::DynamicState::VIEWPORT, vk::DynamicState::SCISSOR];
         let dynamic = vk::PipelineDynamicStateCreateInfo::default().dynamic_states(&dynamic);
         let create = [vk::GraphicsPipelineCreateInfo::default()
@@ -146,7 +221,7 @@ impl Pipeline {
             .color_blend_state(&blend)
             .dynamic_state(&dynamic)
             .layout(layout)
-            .render_pass(pass)];
+            .render_pass(info.pass)];
         // SAFETY: every part referred to lives past the call; the stages were validated when Swell was built.
         let made = unsafe { device.raw.create_graphics_pipelines(device.cache.raw, &create, None) };
         let raw = made.map_err(|(_, result)| result).doing("compiling a pipeline")?[0];

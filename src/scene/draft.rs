@@ -1,5 +1,5 @@
 //! Sections of a scene while they are being read: the settings they end as, and the few keys that need each other.
-use super::{CameraSettings, WaterSettings};
+use super::{CameraSettings, ShadowSettings, WaterSettings};
 use crate::lod::{LodSettings, Quality};
 use crate::raft::{BuoySettings, Horizon, RaftSettings};
 use crate::sea::waves::{FbmFoam, FbmSettings, Kernel, Lean};
@@ -235,6 +235,7 @@ impl Blank for WaterSettings {
         scatter: 0.0,
         foam_color: [0.0; 3],
         detail: 0.0,
+        shadows: ShadowSettings::BLANK,
     };
 }
 

@@ -28,6 +28,7 @@ mod reader;
 mod reference;
 mod schema;
 mod section;
+mod shadows;
 
 pub use address::Address;
 #[cfg(not(target_os = "android"))]
@@ -37,6 +38,7 @@ pub use field::{Field, FieldKind, Part, Value, parts};
 #[cfg(not(target_os = "android"))]
 pub use history::History;
 pub use reference::reference;
+pub use shadows::{ShadowSettings, Shadows};
 
 /// Most bytes of a scene file.
 pub const MAX_BYTES: u64 = 1 << 20;
@@ -104,6 +106,16 @@ impl Scene {
         assemble::assemble(text, origin)
     }
 
+    /// The same as headsets show it: without what is for screens alone.
+    #[must_use]
+    pub fn in_headset(&self) -> Self {
+        let mut scene = self.clone();
+        if scene.water.shadows.shadows == Shadows::Screen {
+            scene.water.shadows.shadows = Shadows::Off;
+        }
+        scene
+    }
+
     /// [`Scene::FLAGSHIP`], read.
     ///
     /// # Errors
@@ -160,6 +172,8 @@ pub struct WaterSettings {
     pub foam_color: [f32; 3],
     /// Factor on the slopes used for shading, 1 is physical.
     pub detail: f64,
+    /// Shadows that the sun casts.
+    pub shadows: ShadowSettings,
 }
 
 /// A pinhole camera.

@@ -1,7 +1,7 @@
 //! Every key of a scene file. Reading, checking, defaults and `docs/scene.md` all come from these tables.
 use super::draft::{CascadeDraft, LodDraft, SkyDraft, SkyModel};
 use super::key::{Absent, Key, Kind, angle, color, number, optional, position, power_of_two, word};
-use super::{CameraSettings, WaterSettings};
+use super::{CameraSettings, Shadows, WaterSettings};
 use crate::lod::Quality;
 use crate::sea::{FoamSettings, NormalKind, SeaSettings, Spectrum};
 
@@ -337,6 +337,34 @@ pub(super) static WATER: &[Key<WaterSettings>] = &[
         1.0,
         |w, v| w.detail = v,
         "Factor on the slopes used for shading; 1 is physical.",
+    ),
+    word(
+        "shadows",
+        "off",
+        &[
+            ("off", |w| w.shadows.shadows = Shadows::Off),
+            ("screen", |w| w.shadows.shadows = Shadows::Screen),
+            ("on", |w| w.shadows.shadows = Shadows::On),
+        ],
+        "Shadows that the waves and what floats on them cast on each other; `screen` is everywhere but in headsets.",
+    ),
+    Key {
+        unit: "texels",
+        ..power_of_two(
+            "shadow_resolution",
+            [256, 4096],
+            2048,
+            |w, v| w.shadows.resolution = v as u32,
+            "Side of the map the sun's shadows are looked up in.",
+        )
+    },
+    number(
+        "shadow_distance",
+        "m",
+        [10.0, 2000.0],
+        200.0,
+        |w, v| w.shadows.distance = v,
+        "Distance from the viewer at which shadows have faded; nearer ones are the sharper the less it is.",
     ),
 ];
 

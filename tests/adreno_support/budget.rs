@@ -13,6 +13,8 @@ pub struct Budgets {
     pub mesa: String,
     /// Fewest waves at once, by the chip and the threads of a wave.
     pub waves: BTreeMap<String, BTreeMap<String, i64>>,
+    /// The same for pipelines that need more registers, by their vertex shader: for what no headset draws by default.
+    pub waves_of: BTreeMap<String, BTreeMap<String, BTreeMap<String, i64>>>,
     /// By the pipeline's vertex shader, the stage, and the chip.
     pub instructions: BTreeMap<String, BTreeMap<String, Instructions>>,
 }
@@ -42,7 +44,8 @@ impl Budgets {
             }
             Some(_) => {}
         }
-        let least = self.waves.get(chip.name).and_then(|least| least.get(&cost.width.to_string()));
+        let waves = self.waves_of.get(pipeline).unwrap_or(&self.waves);
+        let least = waves.get(chip.name).and_then(|least| least.get(&cost.width.to_string()));
         match least {
             None => faults.push(format!("{what}: no limit for waves of {} threads", cost.width)),
             Some(least) if cost.waves < *least => {

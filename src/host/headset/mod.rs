@@ -101,6 +101,7 @@ pub fn headset(
     settings: &HeadsetSettings,
     guest: &mut dyn Guest,
 ) -> Result<HeadsetReport, HostError> {
+    let scene = &scene.in_headset();
     let (report, ride) = (HeadsetReport::default(), Ride::new(scene)?);
     let adapt = Adapt::new(scene, settings);
     let mut patience = Patience::default();
