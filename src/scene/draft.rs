@@ -1,6 +1,6 @@
 //! Sections of a scene while they are being read: the settings they end as, and the few keys that need each other.
 use super::{CameraSettings, WaterSettings};
-use crate::lod::{LodSettings, Quality};
+use crate::lod::{LodSettings, Quality, Tessellation};
 use crate::raft::{BuoySettings, Horizon, RaftSettings};
 use crate::sea::{CascadeSettings, FoamSettings, NormalKind, SeaSettings, Spectrum};
 
@@ -92,6 +92,7 @@ impl Blank for LodDraft {
             max_height: None,
             reach: 0.0,
             skirt_extent: 0.0,
+            tessellation: Tessellation::Grid,
         },
         reach: None,
     };
