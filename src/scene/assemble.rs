@@ -1,7 +1,8 @@
 //! From the text of a scene file to a checked [`Scene`]: parse, read every section, check what keys say together.
-use super::draft::{Blank, CascadeDraft, LodDraft, SkyDraft, SkyModel};
+use super::draft::{Blank, CascadeDraft, LodDraft, SeaDraft, SeaModel, SkyDraft, SkyModel, StillWater};
 use super::error::{Place, SceneError};
 use super::key::Key;
+use super::models::{self, ModelDraft};
 use super::reader::{Reader, excerpt};
 use super::{CameraSettings, Scene, SkySettings, SkySource, WaterSettings, schema};
 use crate::lod::LodSettings;
@@ -28,7 +29,7 @@ pub(super) fn assemble(text: &str, file: &str) -> Result<Scene, SceneError> {
     })?;
     let root = document.get_ref();
     let mut reader = Reader::new(file, text);
-    reader.check_names("", root, &[], &["sea", "lod", "sky", "water", "camera", "raft", "buoy"]);
+    reader.check_names("", root, &[], &["sea", "layer", "lod", "sky", "water", "camera", "raft", "buoy"]);
 
     let sea = read_sea(&mut reader, root);
     let sky = read_sky(&mut reader, root, file);
@@ -37,18 +38,18 @@ pub(super) fn assemble(text: &str, file: &str) -> Result<Scene, SceneError> {
     let lod: LodDraft = read_section(&mut reader, root, "lod", schema::LOD);
     let raft: RaftSettings = read_section(&mut reader, root, "raft", schema::RAFT);
     let buoys = read_buoys(&mut reader, root);
-    reader.finish()?;
+    let warnings = reader.finish()?;
 
     let lod = LodSettings {
         max_height: Some(lod.settings.max_height.unwrap_or_else(|| sea.max_height())),
         reach: lod.reach.unwrap_or_else(|| sea.reach()),
         ..lod.settings
     };
-    Ok(Scene { sea, lod, sky, water, camera, raft, buoys })
+    Ok(Scene { sea, lod, sky, water, camera, raft, buoys, warnings })
 }
 
 /// A value with all defaults of `keys`.
-fn defaults<T: Blank>(keys: &[Key<T>]) -> T {
+pub(super) fn defaults<T: Blank>(keys: &[Key<T>]) -> T {
     let mut value = T::BLANK;
     for key in keys {
         key.apply_default(&mut value);
@@ -56,7 +57,7 @@ fn defaults<T: Blank>(keys: &[Key<T>]) -> T {
     value
 }
 
-fn names<T>(keys: &[Key<T>]) -> Vec<&'static str> {
+pub(super) fn names<T>(keys: &[Key<T>]) -> Vec<&'static str> {
     keys.iter().map(|key| key.name).collect()
 }
 
@@ -71,12 +72,61 @@ fn read_section<T: Blank>(reader: &mut Reader<'_>, root: &DeTable<'_>, name: &st
 }
 
 fn read_sea(reader: &mut Reader<'_>, root: &DeTable<'_>) -> SeaSettings {
+    let mut any: SeaDraft = defaults(schema::ANY_SEA);
+    let table = reader.table("", root, "sea");
+    if let Some(table) = table {
+        reader.read("sea", table, schema::ANY_SEA, &mut any);
+    }
+    let mut drafts = Vec::new();
+    let mut sea = match any.model {
+        SeaModel::Fft => read_spectral(reader, table),
+        SeaModel::Waves | SeaModel::Fbm => read_formulas(reader, root, table, any.model, &mut drafts),
+    };
+    models::read_layers(reader, root, &mut drafts);
+    let loops_span = table.and_then(|table| table.get("loops")).map_or(0..0, |item| item.span());
+    sea.gravity = any.gravity;
+    sea.models = models::build(reader, drafts, &any, loops_span);
+    sea
+}
+
+/// `[sea]` with a model that is no spectrum; the model is added to `drafts`.
+fn read_formulas(
+    reader: &mut Reader<'_>,
+    root: &DeTable<'_>,
+    table: Option<&DeTable<'_>>,
+    model: SeaModel,
+    drafts: &mut Vec<ModelDraft>,
+) -> SeaSettings {
+    let mut water: StillWater = defaults(schema::STILL_WATER);
+    if let Some(table) = table {
+        let fbm = model == SeaModel::Fbm;
+        let mut own = [names(schema::ANY_SEA), names(schema::STILL_WATER)].concat();
+        own.extend(fbm.then(|| names(schema::FBM)).into_iter().flatten());
+        reader.check_names("sea", table, &own, if fbm { &["foam"] } else { &["wave"] });
+        reader.read("sea", table, schema::STILL_WATER, &mut water);
+        drafts.push(if fbm {
+            let span = root.get("sea").map_or(0..0, |item| item.span());
+            models::read_fbm(reader, "sea", table, span)
+        } else {
+            models::read_waves(reader, "sea", table)
+        });
+    }
+    SeaSettings {
+        foam: defaults(schema::FOAM),
+        cascades: vec![CascadeSettings::flat(water.roughness)],
+        spectral: false,
+        ..defaults(schema::SEA)
+    }
+}
+
+/// `[sea]` with the model "fft".
+fn read_spectral(reader: &mut Reader<'_>, table: Option<&DeTable<'_>>) -> SeaSettings {
     let mut sea = defaults(schema::SEA);
     let mut shared = defaults(schema::SEA_AND_CASCADE);
     let mut foam: FoamSettings = defaults(schema::FOAM);
     let mut cascades = Vec::new();
-    if let Some(table) = reader.table("", root, "sea") {
-        let own = [names(schema::SEA), names(schema::SEA_AND_CASCADE)].concat();
+    if let Some(table) = table {
+        let own = [names(schema::ANY_SEA), names(schema::SEA), names(schema::SEA_AND_CASCADE)].concat();
         reader.check_names("sea", table, &own, &["cascade", "foam"]);
         reader.read("sea", table, schema::SEA, &mut sea);
         reader.read("sea", table, schema::SEA_AND_CASCADE, &mut shared);

@@ -2,7 +2,67 @@
 use super::{CameraSettings, WaterSettings};
 use crate::lod::{LodSettings, Quality, Tessellation};
 use crate::raft::{BuoySettings, Horizon, RaftSettings};
+use crate::sea::waves::{FbmFoam, FbmSettings, Kernel, Lean};
 use crate::sea::{CascadeSettings, FoamSettings, NormalKind, SeaSettings, Spectrum};
+
+/// Which model was asked for.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum SeaModel {
+    Fft,
+    Waves,
+    Fbm,
+}
+
+/// What to do where waves would loop.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Loops {
+    Allow,
+    Limit,
+    Refuse,
+}
+
+/// What `[sea]` says with every model.
+pub(super) struct SeaDraft {
+    pub model: SeaModel,
+    pub gravity: f64,
+    pub loops: Loops,
+    pub loop_period: Option<f64>,
+}
+
+/// What `[sea]` says of water without a spectrum.
+pub(super) struct StillWater {
+    pub roughness: f64,
+}
+
+/// `[[layer]]`.
+pub(super) struct LayerDraft {
+    pub model: SeaModel,
+}
+
+/// Which kind of wave was asked for.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Shape {
+    Sine,
+    Peaked,
+    Gerstner,
+    Circular,
+}
+
+/// `[[sea.wave]]`.
+#[derive(Clone, Copy)]
+pub(super) struct WaveDraft {
+    pub shape: Shape,
+    pub wavelength: f64,
+    pub amplitude: Option<f64>,
+    /// Radians.
+    pub direction: Option<f64>,
+    pub speed: Option<f64>,
+    pub phase: f64,
+    pub sharpness: Option<f64>,
+    pub steepness: Option<f64>,
+    pub q: Option<f64>,
+    pub centre: Option<[f64; 2]>,
+}
 
 /// A cascade, `[[sea.cascade]]`; also the keys of `[sea]` that every cascade starts from.
 #[derive(Clone)]
@@ -76,10 +136,67 @@ impl Blank for FoamSettings {
 impl Blank for SeaSettings {
     const BLANK: Self = Self {
         cascades: Vec::new(),
+        spectral: true,
+        models: Vec::new(),
         gravity: 0.0,
         repeat_period: 0.0,
         foam: FoamSettings::BLANK,
         normals: NormalKind::Exact,
+    };
+}
+
+impl Blank for SeaDraft {
+    const BLANK: Self = Self { model: SeaModel::Fft, gravity: 0.0, loops: Loops::Allow, loop_period: None };
+}
+
+impl Blank for StillWater {
+    const BLANK: Self = Self { roughness: 0.0 };
+}
+
+impl Blank for LayerDraft {
+    const BLANK: Self = Self { model: SeaModel::Waves };
+}
+
+impl Blank for WaveDraft {
+    const BLANK: Self = Self {
+        shape: Shape::Sine,
+        wavelength: 0.0,
+        amplitude: None,
+        direction: None,
+        speed: None,
+        phase: 0.0,
+        sharpness: None,
+        steepness: None,
+        q: None,
+        centre: None,
+    };
+}
+
+impl Blank for FbmSettings {
+    const BLANK: Self = Self {
+        amplitude: 0.0,
+        frequency: 0.0,
+        speed: 0.0,
+        amplitude_ramp: 0.0,
+        frequency_ramp: 0.0,
+        speed_ramp: 0.0,
+        octaves: 0,
+        kernel: Kernel::Sine,
+        choppiness: 0.0,
+        seed: 0,
+        foam: FbmFoam::BLANK,
+    };
+}
+
+impl Blank for FbmFoam {
+    const BLANK: Self = Self {
+        range: [0.0; 2],
+        height_amount: 0.0,
+        height_falloff: 0.0,
+        angle_amount: 0.0,
+        angle_falloff: 0.0,
+        lean: Lean::Upright,
+        reflection: [0.0; 2],
     };
 }
 

@@ -16,6 +16,7 @@ mod assemble;
 mod draft;
 mod error;
 mod key;
+mod models;
 mod reader;
 mod reference;
 mod schema;
@@ -44,6 +45,8 @@ pub struct Scene {
     pub raft: RaftSettings,
     /// Floating markers, at most [`crate::raft::MAX_BUOYS`].
     pub buoys: Vec<BuoySettings>,
+    /// What is allowed and hardly meant, a line each with file, line and column.
+    pub warnings: Vec<String>,
 }
 
 impl Scene {

@@ -16,16 +16,22 @@ pub(super) struct Reader<'s> {
     file: &'s str,
     text: &'s str,
     first_fault: Option<(usize, SceneError)>,
+    warnings: Vec<String>,
 }
 
 impl<'s> Reader<'s> {
     pub fn new(file: &'s str, text: &'s str) -> Self {
-        Self { file, text, first_fault: None }
+        Self { file, text, first_fault: None, warnings: Vec::new() }
     }
 
-    /// The first fault found, if any.
-    pub fn finish(self) -> Result<(), SceneError> {
-        self.first_fault.map_or(Ok(()), |(_, error)| Err(error))
+    /// The warnings, or the first fault found.
+    pub fn finish(self) -> Result<Vec<String>, SceneError> {
+        self.first_fault.map_or(Ok(self.warnings), |(_, error)| Err(error))
+    }
+
+    /// Notes something that is allowed and hardly meant.
+    pub fn warn(&mut self, span: &Range<usize>, message: String) {
+        self.warnings.push(format!("{}: {message}", self.place(span)));
     }
 
     /// Reports values that contradict one another, at the value of `key`.
@@ -50,7 +56,7 @@ impl<'s> Reader<'s> {
                 let error = SceneError::UnknownKey {
                     place: self.place(&span),
                     key: shorten(&join(path, name)),
-                    hint: section::hint(path, name, children),
+                    hint: section::hint(path, name, &[names, children].concat()),
                 };
                 self.fault(&span, error);
             }

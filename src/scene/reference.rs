@@ -24,6 +24,19 @@ cascade leaves out has the value of `[sea]`. With no `[[sea.cascade]]` there is 
 that carries all wave numbers.
 ";
 
+const WAVES: &str = "
+Waves one by one, at most 32, layers included: `waves.md` has their equations. A key that a kind has no use for is an error.
+";
+
+const FBM: &str = "
+A fractal sum of octaves: `waves.md` has the equations.
+";
+
+const LAYERS: &str = "
+What is added to the sea of `[sea]`, whatever its model: displacements add up, and the normal is that of the sum. At most four
+models in all, that of `[sea]` included where it is none of \"fft\".
+";
+
 const RAFT: &str = "
 What a rider in a headset stands on; see `raft.md`. It begins under the camera and looks where the camera looks.
 ";
@@ -43,28 +56,32 @@ pub fn reference() -> String {
 
 fn write_section(text: &mut String, section: &Section) {
     // Writing to a string cannot fail.
-    let _ = writeln!(text, "\n## {}", section.header);
-    let is_cascade = section.path == "sea.cascade";
-    text.push_str(match section.path {
-        "sea.cascade" => CASCADES,
-        "raft" => RAFT,
-        "buoy" => BUOYS,
+    let (inherited, own): (Vec<_>, Vec<_>) = section.rows.iter().partition(|row| row.inherited);
+    if section.rows.is_empty() {
+        return;
+    }
+    let _ = writeln!(text, "\n## {}", section.title());
+    text.push_str(match (section.path, section.model) {
+        ("sea.cascade", _) => CASCADES,
+        ("sea.wave", _) => WAVES,
+        ("sea", Some("fbm")) => FBM,
+        ("layer", None) => LAYERS,
+        ("raft", _) => RAFT,
+        ("buoy", _) => BUOYS,
         _ => "",
     });
-    text.push_str("\n| key | type | unit | range | default | meaning |\n|---|---|---|---|---|---|\n");
-    for row in &section.rows {
-        if is_cascade && row.inherited {
-            continue;
-        }
+    if !own.is_empty() {
+        text.push_str("\n| key | type | unit | range | default | meaning |\n|---|---|---|---|---|---|\n");
+    }
+    for row in own {
         let _ = writeln!(
             text,
             "| `{}` | {} | {} | {} | {} | {} |",
             row.name, row.type_name, row.unit, row.range, row.default, row.meaning
         );
     }
-    if is_cascade {
-        let inherited: Vec<_> =
-            section.rows.iter().filter(|row| row.inherited).map(|row| format!("`{}`", row.name)).collect();
-        let _ = writeln!(text, "\nFrom `[sea]`: {}.", inherited.join(", "));
+    if !inherited.is_empty() {
+        let names: Vec<_> = inherited.iter().map(|row| format!("`{}`", row.name)).collect();
+        let _ = writeln!(text, "\nFrom `{}`: {}.", section.source, names.join(", "));
     }
 }

@@ -6,18 +6,13 @@ use crate::lod::Quality;
 use crate::sea::{FoamSettings, NormalKind, SeaSettings, Spectrum};
 
 mod raft;
+mod waves;
 
 pub(super) use raft::{BUOY, RAFT};
+pub(super) use waves::{ANY_SEA, FBM, FBM_FOAM, LAYER, STILL_WATER, WAVE};
 
-/// Keys of `[sea]` that hold for the sea as a whole.
+/// Keys of `[sea]` with model "fft" that hold for the sea as a whole.
 pub(super) static SEA: &[Key<SeaSettings>] = &[
-    word(
-        "model",
-        "fft",
-        &[("fft", |_| {})],
-        "How the sea is computed: a sum of waves by inverse Fourier transform.",
-    ),
-    number("gravity", "m/s^2", [0.1, 100.0], 9.81, |s, v| s.gravity = v, "Acceleration of gravity."),
     number(
         "repeat_period",
         "s",
@@ -34,7 +29,7 @@ pub(super) static SEA: &[Key<SeaSettings>] = &[
     ),
 ];
 
-/// Keys of `[sea]` that `[[sea.cascade]]` may override.
+/// Keys of `[sea]` with model "fft" that `[[sea.cascade]]` may override.
 pub(super) static SEA_AND_CASCADE: &[Key<CascadeDraft>] = &[
     power_of_two(
         "resolution",

@@ -11,7 +11,7 @@ pub(super) struct Row {
     pub range: String,
     pub default: String,
     pub meaning: &'static str,
-    /// A key of `[sea]` that a cascade may override.
+    /// Explained in another section.
     pub inherited: bool,
 }
 
@@ -21,7 +21,23 @@ pub(super) struct Section {
     pub path: &'static str,
     /// How it is written in a file: `[[sea.cascade]]`.
     pub header: &'static str,
+    /// The `model` that it belongs to, where that makes a difference.
+    pub model: Option<&'static str>,
     pub rows: Vec<Row>,
+    /// Where inherited rows are explained.
+    pub source: &'static str,
+    /// Tables that may stand in it.
+    pub children: &'static [&'static str],
+}
+
+impl Section {
+    /// The header, and for which model.
+    pub fn title(&self) -> String {
+        match self.model {
+            Some(model) => format!("{} with model = \"{model}\"", self.header),
+            None => self.header.to_owned(),
+        }
+    }
 }
 
 fn rows<T>(keys: &[Key<T>]) -> impl Iterator<Item = Row> {
@@ -38,17 +54,53 @@ fn rows<T>(keys: &[Key<T>]) -> impl Iterator<Item = Row> {
 
 /// All sections, in the order in which they are documented.
 pub(super) fn all() -> Vec<Section> {
-    let section = |path, header, rows| Section { path, header, rows };
+    let section = |path, header, rows| Section { path, header, model: None, rows, source: "", children: &[] };
+    let of_model = |model, children, section: Section| Section { model: Some(model), children, ..section };
+    let from = |source, section: Section| Section { source, ..section };
+    let inherited = |row| Row { inherited: true, ..row };
     vec![
-        section("sea", "[sea]", rows(schema::SEA).chain(rows(schema::SEA_AND_CASCADE)).collect()),
-        section(
-            "sea.cascade",
-            "[[sea.cascade]]",
-            rows(schema::CASCADE_ONLY)
-                .chain(rows(schema::SEA_AND_CASCADE).map(|row| Row { inherited: true, ..row }))
-                .collect(),
+        section("sea", "[sea]", rows(schema::ANY_SEA).collect()),
+        of_model(
+            "fft",
+            &["cascade", "foam"],
+            section("sea", "[sea]", rows(schema::SEA).chain(rows(schema::SEA_AND_CASCADE)).collect()),
         ),
-        section("sea.foam", "[sea.foam]", rows(schema::FOAM).collect()),
+        from(
+            "[sea]",
+            section(
+                "sea.cascade",
+                "[[sea.cascade]]",
+                rows(schema::CASCADE_ONLY).chain(rows(schema::SEA_AND_CASCADE).map(inherited)).collect(),
+            ),
+        ),
+        of_model("fft", &[], section("sea.foam", "[sea.foam]", rows(schema::FOAM).collect())),
+        of_model("waves", &["wave"], section("sea", "[sea]", rows(schema::STILL_WATER).collect())),
+        section("sea.wave", "[[sea.wave]]", rows(schema::WAVE).collect()),
+        of_model(
+            "fbm",
+            &["foam"],
+            section("sea", "[sea]", rows(schema::STILL_WATER).chain(rows(schema::FBM)).collect()),
+        ),
+        of_model("fbm", &[], section("sea.foam", "[sea.foam]", rows(schema::FBM_FOAM).collect())),
+        section("layer", "[[layer]]", rows(schema::LAYER).collect()),
+        of_model("waves", &["wave"], section("layer", "[[layer]]", Vec::new())),
+        from(
+            "[[sea.wave]]",
+            section("layer.wave", "[[layer.wave]]", rows(schema::WAVE).map(inherited).collect()),
+        ),
+        of_model(
+            "fbm",
+            &["foam"],
+            from("[sea]", section("layer", "[[layer]]", rows(schema::FBM).map(inherited).collect())),
+        ),
+        of_model(
+            "fbm",
+            &[],
+            from(
+                "[sea.foam]",
+                section("layer.foam", "[layer.foam]", rows(schema::FBM_FOAM).map(inherited).collect()),
+            ),
+        ),
         section("lod", "[lod]", rows(schema::LOD).collect()),
         section("sky", "[sky]", rows(schema::SKY).collect()),
         section("water", "[water]", rows(schema::WATER).collect()),
@@ -58,21 +110,22 @@ pub(super) fn all() -> Vec<Section> {
     ]
 }
 
-/// What to tell whoever wrote `name` in the section `path`, which has no such key: the section it does belong to, the
-/// nearest name there is, or all names there are.
-pub(super) fn hint(path: &str, name: &str, children: &[&'static str]) -> String {
+/// What to tell whoever wrote `name` in the section `path`, where only the names `here` may stand: the section it does belong
+/// to, the nearest name there is, or all names there are.
+pub(super) fn hint(path: &str, name: &str, here: &[&'static str]) -> String {
+    let has = |section: &Section| {
+        section.rows.iter().any(|row| row.name == name) || section.children.contains(&name)
+    };
     let sections = all();
-    let here: Vec<&str> = sections
-        .iter()
-        .filter(|section| section.path == path)
-        .flat_map(|section| section.rows.iter().map(|row| row.name))
-        .chain(children.iter().copied())
-        .collect();
-    if let Some(nearest) = nearest(name, &here) {
+    // The right name for another model is no slip of the fingers.
+    if let Some(other) = sections.iter().find(|section| section.path == path && has(section)) {
+        return format!("{name} belongs under {}", other.title());
+    }
+    if let Some(nearest) = nearest(name, here) {
         return format!("did you mean {nearest}?");
     }
-    if let Some(other) = sections.iter().find(|section| section.rows.iter().any(|row| row.name == name)) {
-        return format!("{name} belongs under {}", other.header);
+    if let Some(other) = sections.iter().find(|section| has(section)) {
+        return format!("{name} belongs under {}", other.title());
     }
     format!("here may stand: {}", here.join(", "))
 }
@@ -126,7 +179,20 @@ mod tests {
                 .filter(|row| row.default.parse::<f64>().is_ok() || row.default.starts_with(['"', '[']))
                 .map(|row| format!("{} = {}\n", row.name, row.default))
                 .collect();
-            crate::scene::Scene::parse(&format!("{}\n{body}", section.header), "defaults").unwrap();
+            let model = match section.path {
+                "sea.wave" => Some("waves"),
+                _ => section.model,
+            };
+            let model = model.map_or(String::new(), |model| format!("model = \"{model}\"\n"));
+            let text = match section.header {
+                header @ ("[sea]" | "[[layer]]") => format!("{header}\n{model}{body}"),
+                header if header.contains("sea.") => format!("[sea]\n{model}{header}\n{body}"),
+                header if header.contains("layer.") => format!("[[layer]]\n{model}{header}\n{body}"),
+                header => format!("{header}\n{body}"),
+            };
+            if let Err(error) = crate::scene::Scene::parse(&text, "defaults") {
+                panic!("{error}\n{text}");
+            }
         }
     }
 }

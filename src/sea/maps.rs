@@ -3,8 +3,10 @@ use super::{
     mips::{mip_levels, mip_offset},
     settings::{CascadeSettings, FoamSettings},
     simd::Aligned,
+    waves::Model,
 };
 use half::f16;
+use std::sync::Arc;
 
 /// The maps of one cascade. Grid point (i, j) is at index j N + i, at u = i L/N, v = j L/N.
 #[derive(Clone, Debug, PartialEq)]
@@ -72,4 +74,6 @@ pub struct SeaMaps {
     pub foam: FoamSettings,
     /// One per cascade; their displacements add up.
     pub cascades: Vec<CascadeMaps>,
+    /// Formulas that are in no map; their displacements at `time` are added to those of the cascades.
+    pub models: Arc<[Model]>,
 }

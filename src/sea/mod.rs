@@ -1,9 +1,13 @@
-//! The spectral sea: a patch of ocean from wind, as maps of displacement, normals and foam.
+//! The sea: a patch of ocean from wind, as maps of displacement, normals and foam; and waves as formulas.
 //!
 //! # Stages
 //! [`spectrum`] (once) -> every step [`evolve`] -> [`fft`] -> [`gradient`] -> [`mips`], with [`foam`] remembering. All that
 //! follows the transform along columns is one pass over bands of rows. [`stages::STAGES`] is the graph of jobs; kernels
 //! are written over [`simd`]; the scalar truth of every stage is in [`mod@reference`]. See `docs/sea.md`.
+//!
+//! # Formulas
+//! [`waves`] holds other ways to make water move, which are no maps: a sea may have some in place of its spectrum, or on
+//! top of it.
 //!
 //! # Guarantees
 //! [`Sea::step`] is a pure function of the settings and the time: the same bytes on every run, with any number of
@@ -32,6 +36,7 @@ pub mod simd;
 pub mod spectrum;
 mod split;
 pub mod stages;
+pub mod waves;
 
 pub use ahead::SeaAhead;
 pub use error::SeaError;
@@ -47,6 +52,8 @@ use foam::Fading;
 use rayon::prelude::*;
 use simd::Isa;
 use stages::Times;
+use std::sync::Arc;
+use waves::Model;
 
 /// A sea ready to be stepped: spectra, working space, and the foam's memory.
 #[derive(Debug)]
@@ -54,6 +61,7 @@ pub struct Sea {
     settings: SeaSettings,
     cascades: Vec<Cascade>,
     fading: Option<Fading>,
+    models: Arc<[Model]>,
     times: Times,
 }
 
@@ -82,6 +90,7 @@ impl Sea {
         Ok(Self {
             cascades,
             fading: Fading::new(&settings.foam, settings.repeat_period),
+            models: settings.models.as_slice().into(),
             settings: settings.clone(),
             times: Times::default(),
         })
@@ -104,7 +113,12 @@ impl Sea {
 
     fn flat_maps(&self, planes: bool) -> SeaMaps {
         let cascades = self.settings.cascades.iter().map(|cascade| CascadeMaps::new(cascade, planes));
-        SeaMaps { time: 0.0, foam: self.settings.foam, cascades: cascades.collect() }
+        SeaMaps {
+            time: 0.0,
+            foam: self.settings.foam,
+            cascades: cascades.collect(),
+            models: Arc::clone(&self.models),
+        }
     }
 
     /// Fills `maps` with the sea at `time` (seconds, any sign), on the threads of the pool it is called in.
@@ -138,6 +152,7 @@ impl Sea {
             },
         );
         maps.time = time;
+        maps.models = Arc::clone(&self.models);
         Ok(())
     }
 

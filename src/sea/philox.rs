@@ -38,6 +38,13 @@ pub fn gaussian(seed: u64, i: i32, j: i32, cascade: u32) -> [f64; 2] {
     [radius * libm::sin(angle), radius * libm::cos(angle)]
 }
 
+/// Number `index` of a sequence of its own for each `seed`: strictly between 0 and 1.
+pub fn uniform(seed: u64, index: u32) -> f64 {
+    // The last word keeps these counters apart from those of `gaussian`.
+    let words = philox4x32([index, 0, 0, 1], [seed as u32, (seed >> 32) as u32]);
+    unit(words[0], words[1])
+}
+
 /// A number strictly between 0 and 1 from 52 of 64 random bits.
 fn unit(high: u32, low: u32) -> f64 {
     let bits = (u64::from(high) << 32 | u64::from(low)) >> 12;

@@ -1,5 +1,9 @@
 //! What a sea is made from: checked, resolved parameters, in SI units and radians.
-use super::{error::SeaError, spectrum::expected_variance};
+use super::{
+    error::SeaError,
+    spectrum::expected_variance,
+    waves::{self, Model},
+};
 use std::f64::consts::{PI, TAU};
 
 /// Which statistical description of a wind sea the amplitudes follow.
@@ -74,11 +78,15 @@ pub struct CascadeSettings {
     pub seed: u64,
 }
 
-/// A whole sea: cascades with disjoint bands whose displacements add up.
+/// A whole sea: cascades with disjoint bands and models, whose displacements add up.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SeaSettings {
     /// One or more (at most [`MAX_CASCADES`]), by descending patch size.
     pub cascades: Vec<CascadeSettings>,
+    /// Whether the cascades make waves. Where models alone do, one flat cascade carries the roughness of the water.
+    pub spectral: bool,
+    /// Formulas, at most [`waves::MAX_MODELS`].
+    pub models: Vec<Model>,
     /// Acceleration of gravity, m/s^2.
     pub gravity: f64,
     /// T of eq (16), seconds: the animation closes after it.
@@ -136,6 +144,8 @@ impl Default for SeaSettings {
     fn default() -> Self {
         Self {
             cascades: vec![CascadeSettings::default()],
+            spectral: true,
+            models: Vec::new(),
             gravity: 9.81,
             repeat_period: 200.0,
             foam: FoamSettings::default(),
@@ -161,18 +171,29 @@ impl SeaSettings {
         sea("foam threshold", threshold, threshold.is_finite(), "a finite number")?;
         sea("foam width", width, within(width, 0.0, f64::MAX), "0 or more")?;
         sea("foam fade_time", fade_time, within(fade_time, 0.0, 600.0), "0..=600 s")?;
-        self.cascades.iter().enumerate().try_for_each(|(index, cascade)| cascade.validate(index))
+        self.cascades.iter().enumerate().try_for_each(|(index, cascade)| cascade.validate(index))?;
+        waves::validate(&self.models)
     }
 
-    /// Standard deviation of the summed height, metres, from the sums of the spectra.
+    /// Standard deviation of the summed height, metres, from the sums of the spectra and the models' own.
     pub fn expected_rms_height(&self) -> f64 {
-        let variance = |cascade| expected_variance(cascade, self.gravity);
-        self.cascades.iter().map(variance).sum::<f64>().sqrt()
+        let models: f64 = self.models.iter().map(Model::variance).sum();
+        (self.spectral_variance() + models).sqrt()
     }
 
-    /// A height, metres, that waves rise to or sink by only once in millions of points: five standard deviations.
+    fn spectral_variance(&self) -> f64 {
+        self.cascades.iter().map(|cascade| expected_variance(cascade, self.gravity)).sum()
+    }
+
+    /// A height, metres, that waves rise to or sink by only once in millions of points: five standard deviations of the
+    /// spectra's, and the most that models can make.
     pub fn max_height(&self) -> f64 {
-        BOUND * self.expected_rms_height()
+        let [lowest, highest] = self
+            .models
+            .iter()
+            .map(Model::height_range)
+            .fold([0.0; 2], |[a, b], [low, high]| [a + low, b + high]);
+        BOUND * self.spectral_variance().sqrt() + highest.max(-lowest)
     }
 
     /// The same for the length of the horizontal displacement, metres.
@@ -180,11 +201,24 @@ impl SeaSettings {
         let variance = |cascade: &CascadeSettings| {
             cascade.choppiness * cascade.choppiness * expected_variance(cascade, self.gravity)
         };
-        BOUND * self.cascades.iter().map(variance).sum::<f64>().sqrt()
+        let models: f64 = self.models.iter().map(Model::reach).sum();
+        BOUND * self.cascades.iter().map(variance).sum::<f64>().sqrt() + models
     }
 }
 
 impl CascadeSettings {
+    /// One that makes no waves: as small as there is, of water of this roughness.
+    pub fn flat(roughness: f64) -> Self {
+        Self {
+            resolution: 16,
+            reference_resolution: 16,
+            patch_size: 64.0,
+            wind_speed: 0.0,
+            roughness,
+            ..Self::default()
+        }
+    }
+
     fn validate(&self, cascade: usize) -> Result<(), SeaError> {
         let error = |key, value: String, allowed| Err(SeaError::Cascade { cascade, key, value, allowed });
         if !self.resolution.is_power_of_two() || !(16..=512).contains(&self.resolution) {

@@ -52,6 +52,7 @@ impl Wave {
             time: 0.0,
             foam: FoamSettings::default(),
             cascades: vec![CascadeMaps::new(&cascade, false)],
+            models: Default::default(),
         }
     }
 
