@@ -111,9 +111,11 @@ impl Quadtree {
         self.map.levels()
     }
 
-    /// Distance between vertices of the finest patches, metres.
+    /// Distance between vertices of the finest patches, metres; where the wave signal wants no more, the distance it wants.
     pub fn finest_spacing(&self) -> f64 {
-        self.coarsest_spacing() / f64::from(1_u32 << self.levels())
+        let finest = self.coarsest_spacing() / f64::from(1_u32 << self.levels());
+        let wanted = self.signal.map_or(0.0, |(_, signal)| signal.finest_spacing());
+        finest.max(wanted).min(self.coarsest_spacing())
     }
 
     /// Distance between vertices of the undivided root, metres.

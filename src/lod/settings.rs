@@ -13,6 +13,8 @@ pub enum Quality {
     High,
     /// V 64, tau 1.0, beta 2.0
     Ultra,
+    /// V 128, tau 3.0, beta 2.0: what pictures of the others are measured against. No scene file can ask for it.
+    Reference,
 }
 
 /// What a [`Quality`] stands for.
@@ -34,6 +36,7 @@ impl Quality {
             Self::Medium => (32, 1.5, 1.5),
             Self::High => (64, 1.2, 1.8),
             Self::Ultra => (64, 1.0, 2.0),
+            Self::Reference => (128, 3.0, 2.0),
         };
         Preset { cells, lod_scale, cull_scale }
     }

@@ -21,6 +21,7 @@ mod reader;
 mod reference;
 mod schema;
 mod section;
+mod tessellation;
 
 pub use error::{Place, SceneError};
 pub use reference::reference;

@@ -25,8 +25,9 @@ impl Pieces {
     /// The patch that is two triangles.
     pub const QUAD: usize = 0;
 
-    /// Of patches with at most `cells` cells a side, a power of two up to [`SCALE`].
+    /// Of patches with at most `cells` cells a side, a power of two; never more than [`SCALE`].
     pub const fn new(cells: u32) -> Self {
+        let cells = if cells < SCALE { cells } else { SCALE };
         Self { most: cells.ilog2() as usize }
     }
 
@@ -109,7 +110,7 @@ pub struct Mesh {
 }
 
 impl Mesh {
-    /// For patches of at most `cells` cells a side, a power of two from 2 up to [`SCALE`].
+    /// For patches of at most `cells` cells a side, a power of two from 2 on; never more than [`SCALE`].
     pub fn new(cells: u32) -> Self {
         let pieces = Pieces::new(cells);
         let most = pieces.most();

@@ -46,7 +46,7 @@ pub struct SignalSettings {
 impl SignalSettings {
     /// Distance between vertices, metres, where nothing lessens the density; infinite for a flat sea.
     pub fn finest_spacing(&self) -> f64 {
-        1.0 / (2.0 * self.frequency * self.density)
+        1.0 / (2.0 * self.frequency * self.density * self.fresnel[1])
     }
 
     /// Every value in its range.
