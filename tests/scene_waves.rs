@@ -159,9 +159,9 @@ fn query_at_rest_equals_the_printed_formulas() {
                 let got = |key: &str, i: usize| answer[key][i].as_f64().unwrap();
                 let wanted = (formula.parts)(rest, time);
                 let normal = wanted.normal();
-                for i in 0..3 {
-                    most[0] = most[0].max((got("displacement", i) - wanted.offset[i]).abs());
-                    most[1] = most[1].max((got("normal", i) - normal[i]).abs());
+                for (i, (offset, normal)) in wanted.offset.into_iter().zip(normal).enumerate() {
+                    most[0] = most[0].max((got("displacement", i) - offset).abs());
+                    most[1] = most[1].max((got("normal", i) - normal).abs());
                 }
                 let foam = (formula.foam)(&wanted);
                 most[2] = most[2].max((answer["foam"].as_f64().unwrap() - foam).abs());

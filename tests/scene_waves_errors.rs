@@ -1,8 +1,9 @@
-//! What a scene's author is told about waves: errors, warnings, what `swell info` says and what `swell bake` refuses.
+//! What a scene's author is told about waves: errors, warnings, what `swell info` says and what `swell bake` refuses; and the
+//! scenes that come along.
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 use swell::commands::{BakeOptions, Clock, CommandError, SceneSummary, bake, bake::Format};
 use swell::scene::Scene;
-use swell::sea::waves::{Kind, Model, Wave};
+use swell::sea::waves::{Kind, Model, Wave, evaluate};
 
 const WAVES: &str = "[sea]\nmodel = 'waves'\n";
 
@@ -237,4 +238,35 @@ fn formulas_are_not_baked() {
         assert_eq!(error.exit_status(), 2);
         assert!(!options.out.exists(), "nothing half-written");
     }
+}
+
+#[test]
+fn the_scenes_that_come_along_are_in_order() {
+    for (name, waves, finest, loop_length) in [
+        ("gerstner", 3, 16.0, Some(17.8)),
+        ("sum_of_sines", 4, 16.0, None),
+        ("pond", 4, 4.0, None),
+        ("fbm_sea", 32, 16.0, None),
+    ] {
+        let scene = Scene::load(format!("{}/scenes/{name}.toml", env!("CARGO_MANIFEST_DIR"))).unwrap();
+        assert_eq!(scene.warnings, Vec::<String>::new(), "{name}");
+        assert!(!scene.sea.spectral && scene.sea.models.len() == 1);
+        assert_eq!(scene.lod.size / 2_f64.powi(scene.lod.levels.unwrap() as i32), finest, "{name}");
+        let summary = SceneSummary::new(&scene);
+        assert_eq!(summary.models[0].waves.len(), waves, "{name}");
+        match (summary.loop_length, loop_length) {
+            (Some(found), Some(wanted)) => assert!((found - wanted).abs() < 1e-9, "{name}: {found}"),
+            (found, wanted) => assert_eq!(found, wanted, "{name}"),
+        }
+        // Nobody stands under water.
+        assert!(scene.lod.max_height.unwrap() < scene.camera.eye[1], "{name}");
+    }
+}
+
+#[test]
+fn foam_of_the_fractal_sea_is_here_and_there() {
+    let scene = Scene::load(concat!(env!("CARGO_MANIFEST_DIR"), "/scenes/fbm_sea.toml")).unwrap();
+    let points = (0..60).flat_map(|i| (0..60).map(move |j| [1.31 * f64::from(i), 1.77 * f64::from(j)]));
+    let cover = points.map(|q| evaluate(&scene.sea.models, q, 10.0).foam).sum::<f64>() / 3600.0;
+    assert!((0.01..0.15).contains(&cover), "{cover}");
 }

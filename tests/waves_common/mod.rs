@@ -152,7 +152,7 @@ pub fn octave(kernel: &str, choppiness: f64, a: f64, k: f64, d: [f64; 2], f: f64
 
 /// Foam of height over its maximum and of the unit normal's y, as printed; the complement where `leaning`.
 pub fn foam(h: f64, max: f64, n_y: f64, leaning: bool) -> f64 {
-    let saturate = |value: f64| value.max(0.0).min(1.0);
+    let saturate = |value: f64| value.clamp(0.0, 1.0);
     let (range, height_amount, height_falloff) = ([0.1, 0.7], 0.8, 1.5);
     let (angle_amount, angle_falloff) = (0.2, 2.0);
     let mut ratio = saturate(h / max);

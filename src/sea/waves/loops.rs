@@ -51,7 +51,7 @@ fn denominator(ratio: f64) -> Option<u64> {
         rest = 1.0 / rest - whole;
         p = [p[1], whole * p[1] + p[0]];
         q = [q[1], whole * q[1] + q[0]];
-        if !(q[1] <= MOST_DENOMINATOR) {
+        if q[1].is_nan() || q[1] > MOST_DENOMINATOR {
             return None;
         }
     }
