@@ -47,10 +47,10 @@ fn view(name: &str, away: f64) -> Scene {
     scene
 }
 
-fn draw(scene: &Scene, quality: Quality, tessellation: Tessellation, look: Look) -> (Picture, DrawCounts) {
+fn draw(scene: &Scene, quality: Quality, tessellation: Tessellation) -> (Picture, DrawCounts) {
     let lod = LodSettings { quality, tessellation, ..scene.lod };
     let scene = Scene { lod, ..scene.clone() };
-    let mut stage = Stage::new(&scene, SIZE, 1, look, TIME);
+    let mut stage = Stage::new(&scene, SIZE, 1, Look::Water, TIME);
     let eyes = eyes(&scene.camera, stage.aspect(), false);
     let picture = stage.picture(TIME, &eyes);
     (picture, stage.counts)
@@ -66,13 +66,13 @@ struct Bar {
 impl Bar {
     fn new(name: &str, away: f64) -> Self {
         let scene = view(name, away);
-        let (reference, _) = draw(&scene, Quality::Reference, Tessellation::Grid, Look::Water);
-        let (picture, counts) = draw(&scene, GRID, Tessellation::Grid, Look::Water);
+        let (reference, _) = draw(&scene, Quality::Reference, Tessellation::Grid);
+        let (picture, counts) = draw(&scene, GRID, Tessellation::Grid);
         Self { grid: (reference.difference(&picture), counts), scene, reference }
     }
 
     fn signal(&self, row: &Row) -> (Difference, DrawCounts) {
-        let (picture, counts) = draw(&self.scene, row.quality, row.tessellation(), Look::Water);
+        let (picture, counts) = draw(&self.scene, row.quality, row.tessellation());
         (self.reference.difference(&picture), counts)
     }
 }
