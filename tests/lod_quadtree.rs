@@ -111,7 +111,7 @@ fn batches_hold_every_leaf_once() {
             let mut covered = 0.0;
             for leaf in selection.leaves() {
                 let index = leaf.instance.unwrap();
-                assert!(selection.range(leaf.pattern).contains(&index));
+                assert!(selection.range(leaf.pattern.index()).contains(&index));
                 let instance = &selection.instances()[index as usize];
                 let centre = leaf.node.centre(tree.size());
                 assert_eq!((instance.centre_x, instance.centre_z), (centre.x as f32, centre.y as f32));

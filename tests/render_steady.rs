@@ -15,6 +15,7 @@ use swell::commands::{Clock, Frames, RenderOptions, render};
 use swell::draw::{Fov, Look};
 use swell::gpu::Validation;
 use swell::host::{Headless, HeadlessSettings};
+use swell::lod::{SignalSettings, Tessellation};
 use swell::scene::Scene;
 
 #[global_allocator]
@@ -56,14 +57,37 @@ fn a_flight_allocates_nothing() {
 }
 
 #[test]
+fn a_flight_by_the_wave_signal_allocates_nothing() {
+    alone("frames_of_a_flight_by_the_wave_signal");
+}
+
+#[test]
 fn the_command_allocates_nothing() {
     alone("frames_of_the_command");
 }
 
-/// The host alone, with an eye that flies, so that patches come and go.
 #[test]
 #[ignore = "runs in a process of its own"]
 fn frames_of_a_flight() {
+    fly(&scene());
+}
+
+/// Density follows the flight.
+#[test]
+#[ignore = "runs in a process of its own"]
+fn frames_of_a_flight_by_the_wave_signal() {
+    let mut scene = scene();
+    scene.lod.tessellation = Tessellation::Signal(SignalSettings {
+        frequency: 0.4,
+        density: 1.0,
+        fresnel: [0.3, 1.0],
+        distance: [0.0, 200.0],
+    });
+    fly(&scene);
+}
+
+/// The host alone, with an eye that flies, so that patches come and go.
+fn fly(scene: &Scene) {
     let settings = HeadlessSettings {
         size: SIZE,
         stereo: true,
@@ -73,7 +97,7 @@ fn frames_of_a_flight() {
         threads: 2,
         cache: None,
     };
-    let mut host = Headless::new(&scene(), &settings, 0.0).unwrap();
+    let mut host = Headless::new(scene, &settings, 0.0).unwrap();
     let (mut patches, mut taken) = ([u32::MAX, 0], 0);
     let mut before = 0;
     for frame in 0..WARM + COUNTED {

@@ -20,7 +20,19 @@ fn out_of_range_names_place_value_and_range() {
         "# a comment\n\n[sea]\n  wind_speed = -3\n",
         "x.toml:4:16: sea.wind_speed = -3 is out of range: 0 to 60 m/s",
     );
-    check("[lod]\nlevels = 11\n", "x.toml:2:10: lod.levels = 11 is out of range: 2 to 10");
+    check("[lod]\nlevels = 11\n", "x.toml:2:10: lod.levels = 11 is out of range: 0 to 10");
+    check(
+        "[lod]\nlevels = 1\n",
+        "x.toml:2:10: lod.levels = 1 needs lod.tessellation = \"signal\": the grid has 2 or more",
+    );
+    check(
+        "[lod.signal]\ndistance = [5, 5]\n",
+        "x.toml:2:12: lod.signal.distance = [5, 5] does not ascend; give the nearer distance first",
+    );
+    check(
+        "[lod.signal]\nfresnel = [1, 0.5]\n",
+        "x.toml:2:11: lod.signal.fresnel = [1, 0.5] descends; give the smaller number first",
+    );
     check("[sea]\nseed = -1\n", "x.toml:2:8: sea.seed = -1 is out of range: 0 to 9223372036854775807");
     check(
         "[sea.foam]\nfade_time = 99999999999999999999999999999999999999999999999999\n",

@@ -1,7 +1,7 @@
 //! What scene files that are in order turn into.
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
-use swell::lod::Quality;
+use swell::lod::{Quality, SignalSettings, Tessellation};
 use swell::raft::{BuoySettings, Horizon, RaftSettings, Rider};
 use swell::scene::{Scene, ShadowSettings, Shadows, SkySource};
 use swell::sea::{NormalKind, Sea, Spectrum, Surface, split_bands};
@@ -23,6 +23,7 @@ fn an_empty_file_is_a_scene_of_one_cascade_with_all_waves() {
     assert_eq!(scene.sky.source, SkySource::Daylight { turbidity: 3.0, clouds: 0.0 });
     assert_eq!(scene.lod.quality, Quality::Medium);
     assert_eq!(scene.lod.levels, None);
+    assert_eq!(scene.lod.tessellation, Tessellation::Grid);
     assert_eq!(scene.raft, RaftSettings::default());
     assert_eq!(scene.buoys, []);
 }
@@ -49,7 +50,8 @@ fn every_key_reaches_its_own_field() {
          alignment = 0.4\nchoppiness = 0.5\nsmall_wave_suppression = 0.6\nrepeat_period = 70\nroughness = 0.8\nbreaking = 0.7\n\
          amplitude = 9\nseed = 0x10\nspectrum = 'tma'\nfetch = 1_100\npeak_enhancement = 1.2\ndepth = 13\ngravity = 1.4\n\
          normals = 'sheet'\nfoam = { threshold = 1.5, width = 1.6, fade_time = 17 }\n\
-         [lod]\nsize = 512\nquality = 'ultra'\nlevels = 3\nmax_height = 4\nreach = 5\nskirt_extent = 6\n\
+         [lod]\nsize = 512\nquality = 'ultra'\nlevels = 3\nmax_height = 4\nreach = 5\nskirt_extent = 6\ntessellation = 'signal'\n\
+         signal = { threshold = 100, density = 7, fresnel = [0.25, 0.75], distance = [8, 9] }\n\
          [sky]\nturbidity = 2\nclouds = 0.25\nsun_azimuth_deg = -180\nsun_elevation_deg = 90\nsun_intensity = 3\nexposure = -4\nvisibility = 500\n\
          [water]\ndeep_color = [0.1, 0.2, 0.3]\nscatter_color = [0.4, 0.5, 0.6]\nscatter = 7\nfoam_color = [0.8, 0.9, 1]\ndetail = 2.5\n\
          shadows = 'screen'\nshadow_resolution = 512\nshadow_distance = 90\n\
@@ -71,6 +73,9 @@ fn every_key_reaches_its_own_field() {
     let lod = &scene.lod;
     assert_eq!((lod.size, lod.quality, lod.levels), (512.0, Quality::Ultra, Some(3)));
     assert_eq!((lod.max_height, lod.reach, lod.skirt_extent), (Some(4.0), 5.0, 6.0));
+    // No wave is as high as the threshold.
+    let signal = SignalSettings { frequency: 0.0, density: 7.0, fresnel: [0.25, 0.75], distance: [8.0, 9.0] };
+    assert_eq!(lod.tessellation, Tessellation::Signal(signal));
     let sky = &scene.sky;
     assert_eq!(sky.source, SkySource::Daylight { turbidity: 2.0, clouds: 0.25 });
     assert_eq!((sky.sun_azimuth, sky.sun_elevation, sky.sun_intensity), (-PI, FRAC_PI_2, 3.0));
@@ -104,6 +109,30 @@ fn every_key_reaches_its_own_field() {
     let given = BuoySettings { at: [1.0, -2.0], radius: 3.0, color: [0.1, 0.2, 0.3], height: 4.0 };
     let absent = BuoySettings { at: [0.0, -20.0], radius: 0.5, color: [0.8, 0.12, 0.02], height: 2.0 };
     assert_eq!(scene.buoys, [given, absent]);
+}
+
+/// The flagship's peak is near 0.08 rad/m with metres of amplitude; behind it amplitudes fall with the wave number.
+#[test]
+fn the_signal_ends_where_octaves_are_lower_than_the_threshold() {
+    let frequency = |threshold: f64| {
+        let text = format!(
+            "[lod]\ntessellation = 'signal'\n[lod.signal]\nthreshold = {threshold}\n[sea]\nwind_speed = 14\nfetch = 110_000\npatch_size = 421\n"
+        );
+        match parse(&text).lod.tessellation {
+            Tessellation::Signal(signal) => signal.frequency,
+            Tessellation::Grid => panic!("the grid"),
+        }
+    };
+    let frequencies = [0.5, 0.1, 0.05].map(frequency);
+    assert!(
+        frequencies.is_sorted() && frequencies[0] >= 0.125 / TAU && frequencies[2] < 2.0,
+        "{frequencies:?}"
+    );
+    assert!(
+        frequencies[1] >= 2.0 * frequencies[0] && frequencies[1] < 16.0 * frequencies[0],
+        "{frequencies:?}"
+    );
+    assert_eq!(frequency(50.0), 0.0);
 }
 
 #[test]

@@ -8,7 +8,7 @@ use crate::gpu::{
     Bindings, Blend, Buffer, DepthUse, Device, GpuError, Pipeline, PipelineInfo, Recorder, Target,
     UploadRing, VertexInput, upload_buffer,
 };
-use crate::lod::{self, Selection};
+use crate::lod::{self, Selection, Tessellation};
 use ash::vk;
 use std::ffi::CStr;
 use std::ops::Range;
@@ -50,9 +50,9 @@ pub struct Ocean {
 struct Meshes {
     vertices: Buffer,
     indices: Buffer,
-    /// Where each pattern's indices are in `indices`.
+    /// Where the indices of each pattern, or piece, are in `indices`.
     patterns: Vec<Range<u32>>,
-    /// How many vertices of the grid each pattern uses.
+    /// How many vertices of the grid each of them uses.
     pattern_vertices: Vec<u32>,
     skirt_vertices: Buffer,
     skirt_indices: Buffer,
@@ -146,13 +146,12 @@ impl Ocean {
         commands.vertex_buffer(1, instances.0.buffer(), instances.1);
         commands.index_buffer(&self.meshes.indices);
         for batch in selection.batches() {
-            let indices = self.meshes.patterns[batch.pattern.index()].clone();
-            let (triangles, patches) = (indices.len() as u32 / 3, batch.instances.len() as u32);
+            let indices = self.meshes.patterns[batch.mesh].clone();
+            let (triangles, instances) = (indices.len() as u32 / 3, batch.instances.len() as u32);
             commands.draw_indexed(indices, batch.instances);
-            counts +=
-                DrawCounts::draw(triangles, self.meshes.pattern_vertices[batch.pattern.index()], patches);
-            counts.patches += patches;
+            counts += DrawCounts::draw(triangles, self.meshes.pattern_vertices[batch.mesh], instances);
         }
+        counts.patches += selection.patches() as u32;
         counts
     }
 
@@ -165,7 +164,10 @@ impl Ocean {
 impl Meshes {
     fn new(device: &Arc<Device>, settings: &lod::LodSettings) -> Result<Self, GpuError> {
         let cells = settings.quality.preset().cells;
-        let PatchGrid { vertices, indices, patterns, pattern_vertices } = PatchGrid::new(cells);
+        let PatchGrid { vertices, indices, patterns, pattern_vertices } = match settings.tessellation {
+            Tessellation::Grid => PatchGrid::new(cells),
+            Tessellation::Signal(_) => PatchGrid::pieces(cells),
+        };
         let usage = vk::BufferUsageFlags::VERTEX_BUFFER;
         let vertices = upload_buffer(device, "grid", bytemuck::cast_slice(&vertices), usage)?;
         let usage = vk::BufferUsageFlags::INDEX_BUFFER;

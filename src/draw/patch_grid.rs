@@ -4,6 +4,7 @@
 //! stitched edge slides otherwise than on one that is not: it is there twice, and each pattern's indices name the one
 //! that it means. Twin: `Patch` in `shaders/patch.wgsl`.
 
+use crate::lod::tessellation::{self, SCALE, Weight};
 use crate::lod::{self, Edge, Pattern};
 use bytemuck::{Pod, Zeroable};
 use half::f16;
@@ -25,20 +26,31 @@ pub struct GridVertex {
     unused: [u8; 3],
 }
 
-/// Vertices, and the indices of all patterns one after the other.
+/// Vertices, and the indices of all patterns, or of all pieces, one after the other.
 #[derive(Debug, Default)]
 pub struct PatchGrid {
-    /// Of all patterns together.
+    /// Of all of them together.
     pub vertices: Vec<GridVertex>,
     /// Three a triangle.
     pub indices: Vec<u16>,
-    /// Where each pattern's indices are.
+    /// Where the indices of each are.
     pub patterns: Vec<Range<u32>>,
-    /// How many vertices each pattern uses.
+    /// How many vertices each uses.
     pub pattern_vertices: Vec<u32>,
 }
 
 impl PatchGrid {
+    /// The pieces of patches of at most `cells` x `cells`, whose density the wave signal chooses.
+    pub fn pieces(cells: u32) -> Self {
+        let mesh = tessellation::Mesh::new(cells);
+        Self {
+            vertices: mesh.vertices.into_iter().map(GridVertex::from).collect(),
+            indices: mesh.indices,
+            patterns: mesh.pieces,
+            pattern_vertices: mesh.piece_vertices,
+        }
+    }
+
     /// For patches of `cells` x `cells`.
     pub fn new(cells: u32) -> Self {
         let plain = lod::grid::vertices(cells);
@@ -99,21 +111,62 @@ impl GridVertex {
     }
 }
 
+impl From<tessellation::Vertex> for GridVertex {
+    fn from(vertex: tessellation::Vertex) -> Self {
+        let share = |units: i16| f32::from(units) / SCALE as f32;
+        let (mut on_edge, mut inside) = ([0; 4], 0);
+        match vertex.weight {
+            Weight::Inside => inside = 255,
+            Weight::Edge(edge) => on_edge[edge as usize] = 255,
+        }
+        Self {
+            place: vertex.place.map(|units| f16::from_f32(share(units.into()) - 0.5)),
+            slide: vertex.slide.map(|units| f16::from_f32(share(units.into()))),
+            on_edge,
+            inside,
+            unused: [0; 3],
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::lod::{Instance, Quality};
 
+    const INSTANCE: Instance = Instance {
+        centre_x: 96.0,
+        centre_z: -32.0,
+        size: 64.0,
+        morph: 0.25,
+        edge_morph: [0.5, 0.75, 0.125, 1.0],
+    };
+
+    /// What the shader computes for a vertex.
+    fn position(vertex: &GridVertex) -> [f32; 2] {
+        let mut weight = f32::from(vertex.inside / 255) * INSTANCE.morph;
+        for (share, edge) in vertex.on_edge.iter().zip(INSTANCE.edge_morph) {
+            weight += f32::from(share / 255) * edge;
+        }
+        let along = |axis: usize, centre: f32| {
+            let place = vertex.place[axis].to_f32() + vertex.slide[axis].to_f32() * weight;
+            centre + place * INSTANCE.size
+        };
+        [along(0, INSTANCE.centre_x), along(1, INSTANCE.centre_z)]
+    }
+
+    /// The same for pieces.
+    #[test]
+    fn vertices_of_pieces_are_where_the_level_of_detail_puts_them() {
+        let mesh = tessellation::Mesh::new(64);
+        for (&vertex, own) in mesh.vertices.iter().zip(&PatchGrid::pieces(64).vertices) {
+            assert_eq!(position(own), tessellation::vertex_position(&INSTANCE, vertex).to_array());
+        }
+    }
+
     /// What the shader computes is what the level of detail says, for every vertex that any pattern draws.
     #[test]
     fn vertices_are_where_the_level_of_detail_puts_them() {
-        let instance = Instance {
-            centre_x: 96.0,
-            centre_z: -32.0,
-            size: 64.0,
-            morph: 0.25,
-            edge_morph: [0.5, 0.75, 0.125, 1.0],
-        };
         for quality in [Quality::Low, Quality::Medium, Quality::High, Quality::Ultra] {
             let cells = quality.preset().cells;
             let grid = PatchGrid::new(cells);
@@ -124,17 +177,9 @@ mod tests {
                 assert_eq!(plain.len(), ours.len());
                 for (&index, &own) in plain.iter().zip(ours) {
                     let vertex = grid.vertices[usize::from(own)];
-                    let mut weight = f32::from(vertex.inside / 255) * instance.morph;
-                    for (share, edge) in vertex.on_edge.iter().zip(instance.edge_morph) {
-                        weight += f32::from(share / 255) * edge;
-                    }
-                    let along = |axis: usize, centre: f32| {
-                        let place = vertex.place[axis].to_f32() + vertex.slide[axis].to_f32() * weight;
-                        centre + place * instance.size
-                    };
                     let (i, j) = (u32::from(index) % (cells + 1), u32::from(index) / (cells + 1));
-                    let wanted = lod::vertex_position(&instance, pattern, cells, i, j);
-                    assert_eq!([along(0, 96.0), along(1, -32.0)], wanted.to_array());
+                    let wanted = lod::vertex_position(&INSTANCE, pattern, cells, i, j);
+                    assert_eq!(position(&vertex), wanted.to_array());
                 }
             }
         }

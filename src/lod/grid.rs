@@ -14,7 +14,7 @@ pub fn vertex_index(cells: u32, i: u32, j: u32) -> u16 {
 }
 
 /// Vertices around a cell of 3 x 3 vertices, counter-clockwise seen from above: along z first, as x cross z is -y.
-const RING: [(u32, u32); 8] = [(0, 0), (0, 1), (0, 2), (1, 2), (2, 2), (2, 1), (2, 0), (1, 0)];
+pub(super) const RING: [(u32, u32); 8] = [(0, 0), (0, 1), (0, 2), (1, 2), (2, 2), (2, 1), (2, 0), (1, 0)];
 
 /// The edge whose middle is at each place of [`RING`].
 const RING_EDGE: [Option<Edge>; 8] =
@@ -59,7 +59,7 @@ fn cell_pattern(across: u32, pattern: Pattern, x: u32, y: u32) -> Pattern {
 }
 
 /// The cells of a square, `across` a side, along a Z curve (Morton order).
-fn z_curve(across: u32) -> impl Iterator<Item = (u32, u32)> {
+pub(super) fn z_curve(across: u32) -> impl Iterator<Item = (u32, u32)> {
     let width = across.next_power_of_two();
     (0..width * width)
         .map(|place| (even_bits(place), even_bits(place >> 1)))

@@ -6,7 +6,8 @@
 //!                          stitch pattern (63)(64), weights of the slide -> Instance, sorted by pattern
 //! ```
 //! Every patch is the same grid of (V + 1)^2 vertices with one of 16 index patterns; `vertex_position` says where a
-//! vertex of an instance stands. `docs/lod.md` gives the reasons.
+//! vertex of an instance stands. `docs/lod.md` gives the reasons. [`tessellation`] draws patches with as many vertices as
+//! the waves need instead.
 mod balance;
 pub mod error;
 pub mod frustum;
@@ -22,6 +23,7 @@ pub mod snap;
 pub mod spacing;
 pub mod stitch;
 pub mod subdivision;
+pub mod tessellation;
 pub mod weight;
 
 pub use error::LodError;
@@ -37,4 +39,5 @@ pub use snap::{snap_origin, snap_step};
 pub use spacing::{vertex_spacing, vertex_spacing_bound};
 pub use stitch::{Edge, Pattern};
 pub use subdivision::SubdivisionMap;
+pub use tessellation::{SignalSettings, Tessellation};
 pub use weight::{Ranges, WEIGHT_STEPS, morph_start};

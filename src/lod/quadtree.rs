@@ -1,7 +1,11 @@
 //! The quadtree: from a viewer and its views to the patches to draw.
 use super::balance::{balance, divided_per_level};
 use super::select::{Bounds, View};
-use super::{Frustum, LodError, LodSettings, Node, Preset, Ranges, Selection, SubdivisionMap, snap_origin};
+use super::tessellation::{Density, Pieces};
+use super::{
+    Frustum, LodError, LodSettings, Node, Preset, Ranges, Selection, SignalSettings, SubdivisionMap,
+    Tessellation, snap_origin,
+};
 use glam::DVec3;
 
 /// A quadtree over the sea around the viewer, chosen anew for every frame without allocation.
@@ -10,6 +14,8 @@ pub struct Quadtree {
     size: f64,
     preset: Preset,
     bounds: Bounds,
+    /// Where the wave signal chooses the density.
+    signal: Option<(Pieces, SignalSettings)>,
     map: SubdivisionMap,
     selection: Selection,
     stack: Vec<Node>,
@@ -27,7 +33,11 @@ impl Quadtree {
         let preset = settings.quality.preset();
         let levels = settings.level_count();
         let widest = divided_per_level(preset.lod_scale);
-        let divided = (0..levels).map(|level| widest.min(1 << (2 * level))).sum();
+        let signal = match settings.tessellation {
+            Tessellation::Grid => None,
+            Tessellation::Signal(signal) => Some((Pieces::new(preset.cells), signal)),
+        };
+        let divided: usize = (0..levels).map(|level| widest.min(1 << (2 * level))).sum();
         Ok(Self {
             size: settings.size,
             preset,
@@ -36,8 +46,9 @@ impl Quadtree {
                 max_height: settings.height_bound(),
                 reach: settings.reach,
             },
+            signal,
             map: SubdivisionMap::new(levels, divided),
-            selection: Selection::with_capacity(3 * divided + 1, levels),
+            selection: Selection::with_capacity(3 * divided + 1, levels, signal.map(|(pieces, _)| pieces)),
             stack: Vec::with_capacity(3 * levels as usize + 1),
             eye: DVec3::ZERO,
         })
@@ -56,7 +67,8 @@ impl Quadtree {
         let ranges = Ranges::new(eye, self.size, self.preset.lod_scale);
         self.subdivide(&ranges);
         balance(&mut self.map);
-        let view = View { origin, eye, frusta, ranges, root_size: self.size, bounds: self.bounds };
+        let density = self.signal.map(|(pieces, signal)| (pieces, Density::new(signal, eye, self.size)));
+        let view = View { origin, eye, frusta, ranges, root_size: self.size, bounds: self.bounds, density };
         self.selection.fill(&self.map, &view);
         &self.selection
     }
@@ -99,9 +111,11 @@ impl Quadtree {
         self.map.levels()
     }
 
-    /// Distance between vertices of the finest patches, metres.
+    /// Distance between vertices of the finest patches, metres; where the wave signal wants no more, the distance it wants.
     pub fn finest_spacing(&self) -> f64 {
-        self.coarsest_spacing() / f64::from(1_u32 << self.levels())
+        let finest = self.coarsest_spacing() / f64::from(1_u32 << self.levels());
+        let wanted = self.signal.map_or(0.0, |(_, signal)| signal.finest_spacing());
+        finest.max(wanted).min(self.coarsest_spacing())
     }
 
     /// Distance between vertices of the undivided root, metres.

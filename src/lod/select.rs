@@ -1,4 +1,5 @@
-//! What is drawn for one viewer: patches sorted by stitch pattern, ready for instanced draws.
+//! What is drawn for one viewer: patches sorted by mesh, ready for instanced draws.
+use super::tessellation::{Density, MOST_PIECES, Pieces, Plan};
 use super::{Edge, Frustum, Node, Pattern, Ranges, SubdivisionMap};
 use bytemuck::{Pod, Zeroable};
 use glam::{DVec2, DVec3, Vec3};
@@ -30,15 +31,15 @@ pub struct Leaf {
     pub node: Node,
     /// Edges where its neighbour is coarser.
     pub pattern: Pattern,
-    /// Index of its instance; `None` when it was culled.
+    /// Index of its instance, the first where it is drawn in pieces; `None` when it was culled.
     pub instance: Option<u32>,
 }
 
 /// One instanced draw call.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Batch {
-    /// Which of the 16 index patterns to draw.
-    pub pattern: Pattern,
+    /// What to draw: [`Pattern::index`], or a number of [`Pieces`] where density is chosen by the wave signal.
+    pub mesh: usize,
     /// Its instances, at most [`MAX_BATCH`].
     pub instances: Range<u32>,
 }
@@ -48,9 +49,13 @@ pub struct Batch {
 pub struct Selection {
     origin: DVec2,
     instances: Vec<Instance>,
-    /// First instance of each pattern, and the number of instances.
-    starts: [u32; Pattern::COUNT + 1],
+    /// First instance of each mesh, and the number of instances.
+    starts: Vec<u32>,
+    /// Where the next instance of each mesh goes.
+    next: Vec<u32>,
     leaves: Vec<Leaf>,
+    /// One for each leaf that may be seen, in their order.
+    plans: Vec<Plan>,
     stack: Vec<Node>,
 }
 
@@ -60,23 +65,28 @@ impl Selection {
         self.origin
     }
 
-    /// The patches that may be seen, by ascending pattern.
+    /// The patches that may be seen, by ascending mesh; one that is drawn in pieces is there for each of them.
     pub fn instances(&self) -> &[Instance] {
         &self.instances
     }
 
-    /// Instances of one pattern.
-    pub fn range(&self, pattern: Pattern) -> Range<u32> {
-        self.starts[pattern.index()]..self.starts[pattern.index() + 1]
+    /// How many patches may be seen.
+    pub fn patches(&self) -> usize {
+        self.plans.len()
     }
 
-    /// Draw calls for everything: ascending patterns, none empty.
+    /// Instances of one mesh.
+    pub fn range(&self, mesh: usize) -> Range<u32> {
+        self.starts[mesh]..self.starts[mesh + 1]
+    }
+
+    /// Draw calls for everything: ascending meshes, none empty.
     pub fn batches(&self) -> impl Iterator<Item = Batch> {
-        Pattern::all().flat_map(|pattern| {
-            let Range { start, end } = self.range(pattern);
+        (0..self.next.len()).flat_map(|mesh| {
+            let Range { start, end } = self.range(mesh);
             (start..end)
                 .step_by(MAX_BATCH as usize)
-                .map(move |first| Batch { pattern, instances: first..end.min(first + MAX_BATCH) })
+                .map(move |first| Batch { mesh, instances: first..end.min(first + MAX_BATCH) })
         })
     }
 
@@ -85,27 +95,31 @@ impl Selection {
         &self.leaves
     }
 
-    /// Nothing selected; no allocation up to `leaves` leaves of `levels` levels.
-    pub(super) fn with_capacity(leaves: usize, levels: u32) -> Self {
+    /// Nothing selected; no allocation up to `leaves` leaves of `levels` levels, drawn with the patterns or with `pieces`.
+    pub(super) fn with_capacity(leaves: usize, levels: u32, pieces: Option<Pieces>) -> Self {
+        let (meshes, most) = pieces.map_or((Pattern::COUNT, 1), |pieces| (pieces.count(), MOST_PIECES));
         Self {
             origin: DVec2::ZERO,
-            instances: Vec::with_capacity(leaves),
-            starts: [0; Pattern::COUNT + 1],
+            instances: Vec::with_capacity(most * leaves),
+            starts: vec![0; meshes + 1],
+            next: vec![0; meshes],
             leaves: Vec::with_capacity(leaves),
+            plans: Vec::with_capacity(leaves),
             stack: Vec::with_capacity(3 * levels as usize + 1),
         }
     }
 
-    /// Collects the leaves of a balanced tree, culls them and sorts what is left by pattern.
+    /// Collects the leaves of a balanced tree, culls them and sorts what is left by mesh.
     pub(super) fn fill(&mut self, map: &SubdivisionMap, view: &View<'_>) {
         self.origin = view.origin;
         self.collect_leaves(map, view);
-        self.sort_by_pattern(view);
+        self.sort_by_mesh();
     }
 
-    /// Finds the leaves with their patterns; `instance` is set where the leaf may be seen.
+    /// Finds the leaves with their patterns; `instance` is set where the leaf may be seen, and there it has a plan.
     fn collect_leaves(&mut self, map: &SubdivisionMap, view: &View<'_>) {
         self.leaves.clear();
+        self.plans.clear();
         self.stack.clear();
         self.stack.push(Node::ROOT);
         while let Some(node) = self.stack.pop() {
@@ -114,33 +128,39 @@ impl Selection {
             } else {
                 let pattern = Pattern::of_leaf(map, node);
                 let instance = view.sees(node).then_some(0);
+                if instance.is_some() {
+                    self.plans.push(view.plan(map, node, pattern));
+                }
                 self.leaves.push(Leaf { node, pattern, instance });
             }
         }
     }
 
-    /// Counting sort: leaves keep their order within a pattern.
-    fn sort_by_pattern(&mut self, view: &View<'_>) {
-        let mut counts = [0_u32; Pattern::COUNT];
-        for leaf in self.leaves.iter().filter(|leaf| leaf.instance.is_some()) {
-            counts[leaf.pattern.index()] += 1;
+    /// Counting sort: leaves keep their order within a mesh.
+    fn sort_by_mesh(&mut self) {
+        self.next.fill(0);
+        for mesh in self.plans.iter().flat_map(Plan::meshes) {
+            self.next[usize::from(*mesh)] += 1;
         }
         let mut total = 0;
-        for (start, count) in self.starts.iter_mut().zip(counts) {
+        for (start, next) in self.starts.iter_mut().zip(&mut self.next) {
             *start = total;
-            total += count;
+            total += std::mem::replace(next, total);
         }
-        self.starts[Pattern::COUNT] = total;
-
-        let mut next = self.starts;
+        if let Some(end) = self.starts.last_mut() {
+            *end = total;
+        }
         self.instances.clear();
         self.instances.resize(total as usize, Instance::default());
-        for leaf in &mut self.leaves {
-            if let Some(slot) = &mut leaf.instance {
-                let place = &mut next[leaf.pattern.index()];
-                *slot = *place;
-                self.instances[*place as usize] = view.instance(leaf.node, leaf.pattern);
-                *place += 1;
+        let seen = self.leaves.iter_mut().filter_map(|leaf| leaf.instance.as_mut());
+        for (slot, plan) in seen.zip(&self.plans) {
+            for (place, mesh) in plan.meshes().iter().enumerate() {
+                let next = &mut self.next[usize::from(*mesh)];
+                self.instances[*next as usize] = plan.instance;
+                if place == 0 {
+                    *slot = *next;
+                }
+                *next += 1;
             }
         }
     }
@@ -155,6 +175,8 @@ pub(super) struct View<'a> {
     pub(super) ranges: Ranges,
     pub(super) root_size: f64,
     pub(super) bounds: Bounds,
+    /// Where the wave signal chooses the density.
+    pub(super) density: Option<(Pieces, Density)>,
 }
 
 /// How far a patch's surface may leave its square.
@@ -181,6 +203,15 @@ impl View<'_> {
         let half_extents = DVec3::new(across, self.bounds.max_height, across);
         let (centre, half_extents): (Vec3, Vec3) = (centre.as_vec3(), half_extents.as_vec3());
         self.frusta.iter().any(|frustum| frustum.keeps(centre, half_extents))
+    }
+
+    /// What a leaf is drawn with.
+    fn plan(&self, map: &SubdivisionMap, leaf: Node, pattern: Pattern) -> Plan {
+        let instance = self.instance(leaf, pattern);
+        match &self.density {
+            None => Plan::grid(instance, pattern),
+            Some((pieces, density)) => Plan::signal(*pieces, density, map, (leaf, pattern), instance),
+        }
     }
 
     fn instance(&self, leaf: Node, pattern: Pattern) -> Instance {

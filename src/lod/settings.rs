@@ -1,6 +1,6 @@
 //! Parameters of the quadtree ("VR Ocean" section 5 and table 2).
-use super::LodError;
 use super::error::check_range;
+use super::{LodError, Tessellation};
 
 /// Named quality levels, table 2.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -13,6 +13,8 @@ pub enum Quality {
     High,
     /// V 64, tau 1.0, beta 2.0
     Ultra,
+    /// V 128, tau 3.0, beta 2.0: what pictures of the others are measured against. No scene file can ask for it.
+    Reference,
 }
 
 /// What a [`Quality`] stands for.
@@ -34,6 +36,7 @@ impl Quality {
             Self::Medium => (32, 1.5, 1.5),
             Self::High => (64, 1.2, 1.8),
             Self::Ultra => (64, 1.0, 2.0),
+            Self::Reference => (128, 3.0, 2.0),
         };
         Preset { cells, lod_scale, cull_scale }
     }
@@ -54,6 +57,8 @@ pub struct LodSettings {
     pub reach: f64,
     /// Distance to which the skirt continues the sea, as a multiple of `size`.
     pub skirt_extent: f64,
+    /// How many of a patch's cells are drawn.
+    pub tessellation: Tessellation,
 }
 
 impl LodSettings {
@@ -73,7 +78,13 @@ impl LodSettings {
     /// [`LodError::OutOfRange`] for the first one that is not.
     pub fn check(&self) -> Result<(), LodError> {
         check_range("size", self.size, 256.0, 8192.0)?;
-        check_range("levels", f64::from(self.level_count()), 1.0, 10.0)?;
+        // One patch alone is coarse where its density cannot follow the distance.
+        let (fewest, tessellation) = match self.tessellation {
+            Tessellation::Grid => (1.0, Ok(())),
+            Tessellation::Signal(signal) => (0.0, signal.check()),
+        };
+        tessellation?;
+        check_range("levels", f64::from(self.level_count()), fewest, 10.0)?;
         check_range("max_height", self.height_bound(), 0.0, 1.0e4)?;
         check_range("reach", self.reach, 0.0, 1.0e4)?;
         check_range("skirt_extent", self.skirt_extent, 1.0, 1.0e4)

@@ -1,11 +1,10 @@
 //! From the text of a scene file to a checked [`Scene`]: parse, read every section, check what keys say together.
-use super::draft::{Blank, CascadeDraft, LodDraft, SeaDraft, SeaModel, SkyDraft, SkyModel, StillWater};
+use super::draft::{Blank, CascadeDraft, SeaDraft, SeaModel, SkyDraft, SkyModel, StillWater};
 use super::error::{Place, SceneError};
 use super::key::Key;
 use super::models::{self, ModelDraft};
 use super::reader::{Reader, excerpt};
-use super::{CameraSettings, Scene, SkySettings, SkySource, WaterSettings, schema};
-use crate::lod::LodSettings;
+use super::{CameraSettings, Scene, SkySettings, SkySource, WaterSettings, schema, tessellation};
 use crate::raft::{BuoySettings, MAX_BUOYS, RaftSettings};
 use crate::sea::settings::MAX_CASCADES;
 use crate::sea::{CascadeSettings, FoamSettings, SeaSettings, split_bands};
@@ -35,16 +34,12 @@ pub(super) fn assemble(text: &str, file: &str) -> Result<Scene, SceneError> {
     let sky = read_sky(&mut reader, root, file);
     let water: WaterSettings = read_section(&mut reader, root, "water", schema::WATER);
     let camera = read_camera(&mut reader, root);
-    let lod: LodDraft = read_section(&mut reader, root, "lod", schema::LOD);
+    let lod = tessellation::read_lod(&mut reader, root);
     let raft: RaftSettings = read_section(&mut reader, root, "raft", schema::RAFT);
     let buoys = read_buoys(&mut reader, root);
     let warnings = reader.finish()?;
 
-    let lod = LodSettings {
-        max_height: Some(lod.settings.max_height.unwrap_or_else(|| sea.max_height())),
-        reach: lod.reach.unwrap_or_else(|| sea.reach()),
-        ..lod.settings
-    };
+    let lod = tessellation::settings(lod, &sea);
     Ok(Scene { sea, lod, sky, water, camera, raft, buoys, warnings })
 }
 

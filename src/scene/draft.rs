@@ -1,6 +1,6 @@
 //! Sections of a scene while they are being read: the settings they end as, and the few keys that need each other.
 use super::{CameraSettings, ShadowSettings, WaterSettings};
-use crate::lod::{LodSettings, Quality};
+use crate::lod::{LodSettings, Quality, SignalSettings, Tessellation};
 use crate::raft::{BuoySettings, Horizon, RaftSettings};
 use crate::sea::waves::{FbmFoam, FbmSettings, Kernel, Lean};
 use crate::sea::{CascadeSettings, FoamSettings, NormalKind, SeaSettings, Spectrum};
@@ -75,6 +75,16 @@ pub(super) struct CascadeDraft {
 pub(super) struct LodDraft {
     pub settings: LodSettings,
     pub reach: Option<f64>,
+    /// Density by the wave signal.
+    pub by_signal: bool,
+    pub signal: SignalDraft,
+}
+
+/// `[lod.signal]`; the sea says the frequency.
+pub(super) struct SignalDraft {
+    pub threshold: f64,
+    pub density: f64,
+    pub settings: SignalSettings,
 }
 
 /// Which kind of sky was asked for.
@@ -209,8 +219,19 @@ impl Blank for LodDraft {
             max_height: None,
             reach: 0.0,
             skirt_extent: 0.0,
+            tessellation: Tessellation::Grid,
         },
         reach: None,
+        by_signal: false,
+        signal: SignalDraft::BLANK,
+    };
+}
+
+impl Blank for SignalDraft {
+    const BLANK: Self = Self {
+        threshold: 0.0,
+        density: 0.0,
+        settings: SignalSettings { frequency: 0.0, density: 0.0, fresnel: [0.0; 2], distance: [0.0; 2] },
     };
 }
 

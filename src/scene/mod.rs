@@ -29,6 +29,7 @@ mod reference;
 mod schema;
 mod section;
 mod shadows;
+mod tessellation;
 
 pub use address::Address;
 #[cfg(not(target_os = "android"))]

@@ -37,6 +37,10 @@ What is added to the sea of `[sea]`, whatever its model: displacements add up, a
 models in all, that of `[sea]` included where it is none of \"fft\".
 ";
 
+const SIGNAL: &str = "
+Where `lod.tessellation` is \"signal\"; see `tessellation.md`.
+";
+
 const RAFT: &str = "
 What a rider in a headset stands on; see `raft.md`. It begins under the camera and looks where the camera looks.
 ";
@@ -66,6 +70,7 @@ fn write_section(text: &mut String, section: &Section) {
         ("sea.wave", _) => WAVES,
         ("sea", Some("fbm")) => FBM,
         ("layer", None) => LAYERS,
+        ("lod.signal", _) => SIGNAL,
         ("raft", _) => RAFT,
         ("buoy", _) => BUOYS,
         _ => "",

@@ -5,9 +5,11 @@ use super::{CameraSettings, Shadows, WaterSettings};
 use crate::lod::Quality;
 use crate::sea::{FoamSettings, NormalKind, SeaSettings, Spectrum};
 
+mod lod_signal;
 mod raft;
 mod waves;
 
+pub(super) use lod_signal::LOD_SIGNAL;
 pub(super) use raft::{BUOY, RAFT};
 pub(super) use waves::{ANY_SEA, FBM, FBM_FOAM, LAYER, STILL_WATER, WAVE};
 
@@ -214,11 +216,11 @@ pub(super) static LOD: &[Key<LodDraft>] = &[
         name: "levels",
         unit: "",
         kind: Kind::Integer {
-            range: [2, 10],
+            range: [0, 10],
             absent: Absent::Means("floor(log2(size / 64) + 0.5), 2 to 8"),
             set: |l, v| l.settings.levels = Some(v as u32),
         },
-        meaning: "Levels below the root: the finest patch has the side size / 2^levels.",
+        meaning: "Levels below the root: the finest patch has the side size / 2^levels. Fewer than 2 need `tessellation = \"signal\"`.",
     },
     optional(
         "max_height",
@@ -243,6 +245,12 @@ pub(super) static LOD: &[Key<LodDraft>] = &[
         10.0,
         |l, v| l.settings.skirt_extent = v,
         "Distance to which the sea continues to the horizon, as a multiple of `size`.",
+    ),
+    word(
+        "tessellation",
+        "grid",
+        &[("grid", |l| l.by_signal = false), ("signal", |l| l.by_signal = true)],
+        "Cells of a patch: the quality's own number, or by `[lod.signal]` as many as the waves there need, up to that number.",
     ),
 ];
 

@@ -108,6 +108,7 @@ pub(super) fn all() -> Vec<Section> {
             ),
         ),
         section("lod", "[lod]", rows(schema::LOD).collect()),
+        section("lod.signal", "[lod.signal]", rows(schema::LOD_SIGNAL).collect()),
         section("sky", "[sky]", rows(schema::SKY).collect()),
         section("water", "[water]", rows(schema::WATER).collect()),
         section("camera", "[camera]", rows(schema::CAMERA).collect()),

@@ -25,6 +25,7 @@ pub mod foam;
 pub mod gradient;
 pub mod maps;
 pub mod mips;
+pub mod octaves;
 mod pack;
 pub mod philox;
 pub mod query;

@@ -6,7 +6,7 @@ mod random;
 
 use glam::DVec3;
 pub use random::Random;
-use swell::lod::{LodSettings, Quadtree, Quality};
+use swell::lod::{LodSettings, Quadtree, Quality, Tessellation};
 
 pub const QUALITIES: [Quality; 4] = [Quality::Low, Quality::Medium, Quality::High, Quality::Ultra];
 
@@ -25,7 +25,15 @@ impl Random {
 
 /// Settings with nothing special but these.
 pub fn settings(size: f64, quality: Quality, levels: Option<u32>) -> LodSettings {
-    LodSettings { size, quality, levels, max_height: Some(8.0), reach: 6.0, skirt_extent: 10.0 }
+    LodSettings {
+        size,
+        quality,
+        levels,
+        max_height: Some(8.0),
+        reach: 6.0,
+        skirt_extent: 10.0,
+        tessellation: Tessellation::Grid,
+    }
 }
 
 pub fn tree(size: f64, quality: Quality, levels: Option<u32>) -> Quadtree {

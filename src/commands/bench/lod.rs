@@ -2,7 +2,7 @@
 use super::harness::{Body, Case, Label, Work};
 use super::{BenchError, selection::Selection};
 use crate::draw::{Eye, eyes};
-use crate::lod::{Frustum, LodSettings, Quadtree, Quality};
+use crate::lod::{Frustum, LodSettings, Quadtree, Quality, Tessellation};
 use crate::scene::CameraSettings;
 use glam::DVec3;
 use std::f64::consts::TAU;
@@ -16,6 +16,7 @@ const SETTINGS: LodSettings = LodSettings {
     max_height: Some(6.0),
     reach: 6.0,
     skirt_extent: 8.0,
+    tessellation: Tessellation::Grid,
 };
 /// Where the head looks in turn: once around.
 const DIRECTIONS: usize = 64;
