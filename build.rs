@@ -3,6 +3,7 @@
 //! - `#include "file.wgsl"` on a line of its own takes in another file, once; errors still name the file they are in.
 //! - A shader with `override CASCADES` is compiled once for each number of cascades: naga resolves overrides before it
 //!   writes, as SPIR-V gets no specialisation constants from it.
+//! - A shader is compiled anew for each of [`FLAVOURS`], where other files take the place of some that it includes.
 //! - Each module holds one entry point, because Adreno's compilers have failed on several.
 //! - How often each variant looks into a texture is counted, for docs/frame-cost.md and its test.
 //! - Bindings and the size of the uniform block are reflected into Rust, so no table is kept by hand.
@@ -12,13 +13,35 @@
 use naga::back::{pipeline_constants::process_overrides, spv};
 use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
 use naga::{AddressSpace, Block, Expression, Function, Literal, Module, Statement, TypeInner};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::{env, fs, process};
 
 /// As `sea::MAX_CASCADES`.
 const MAX_CASCADES: u32 = 4;
+
+/// A kind of sea or of shading: files that are included in the place of others.
+struct Flavour {
+    /// Before the names of what comes out.
+    prefix: &'static str,
+    /// What is included, and what instead. Shaders that include none of the former come without this flavour.
+    instead: &'static [(&'static str, &'static str)],
+    /// Fewest cascades that it is compiled for, where they matter.
+    fewest: u32,
+}
+
+/// The first is the plain one.
+const FLAVOURS: [Flavour; 4] = [
+    Flavour { prefix: "", instead: &[], fewest: 1 },
+    Flavour { prefix: "analytic_", instead: &[("waves.wgsl", "analytic.wgsl")], fewest: 0 },
+    Flavour { prefix: "phong_", instead: &[("water.wgsl", "blinn_phong.wgsl")], fewest: 1 },
+    Flavour {
+        prefix: "analytic_phong_",
+        instead: &[("waves.wgsl", "analytic.wgsl"), ("water.wgsl", "blinn_phong.wgsl")],
+        fewest: 0,
+    },
+];
 
 type Failure = String;
 
@@ -44,9 +67,17 @@ fn run() -> Result<(), Failure> {
     let mut generated = String::new();
     let mut reflection = Reflection::default();
     for file in files {
-        let source = Source::read(&file)?;
-        if source.text.contains("@vertex") || source.text.contains("@fragment") {
-            compile(&source, &file, &out, &mut generated, &mut reflection)?;
+        let plain = Source::read(&file, &[])?;
+        if !plain.text.contains("@vertex") && !plain.text.contains("@fragment") {
+            continue;
+        }
+        for flavour in FLAVOURS {
+            let all =
+                flavour.instead.iter().all(|(name, _)| plain.seen.iter().any(|seen| seen.ends_with(name)));
+            if all {
+                let source = Source::read(&file, flavour.instead)?;
+                compile(&source, &file, &flavour, &out, &mut generated, &mut reflection)?;
+            }
         }
     }
     reflection.write(&mut generated);
@@ -62,13 +93,13 @@ struct Source {
 }
 
 impl Source {
-    fn read(file: &Path) -> Result<Self, Failure> {
+    fn read(file: &Path, instead: &[(&str, &str)]) -> Result<Self, Failure> {
         let mut source = Self::default();
-        source.add(file)?;
+        source.add(file, instead)?;
         Ok(source)
     }
 
-    fn add(&mut self, file: &Path) -> Result<(), Failure> {
+    fn add(&mut self, file: &Path, instead: &[(&str, &str)]) -> Result<(), Failure> {
         if self.seen.iter().any(|seen| seen == file) {
             return Ok(());
         }
@@ -76,7 +107,11 @@ impl Source {
         let text = fs::read_to_string(file).map_err(|e| format!("{}: {e}", file.display()))?;
         for (index, line) in text.lines().enumerate() {
             match line.trim().strip_prefix("#include ") {
-                Some(name) => self.add(&Path::new("shaders").join(name.trim().trim_matches('"')))?,
+                Some(name) => {
+                    let name = name.trim().trim_matches('"');
+                    let name = instead.iter().find(|(from, _)| *from == name).map_or(name, |(_, to)| *to);
+                    self.add(&Path::new("shaders").join(name), instead)?;
+                }
                 None => {
                     self.text.push_str(line);
                     self.text.push('\n');
@@ -85,6 +120,32 @@ impl Source {
             }
         }
         Ok(())
+    }
+
+    /// The files whose functions `block` calls, and those that they call.
+    fn reach(&self, module: &Module, block: &Block, files: &mut BTreeSet<PathBuf>) {
+        for statement in block {
+            match statement {
+                Statement::Call { function, .. } => {
+                    let line = module.functions.get_span(*function).location(&self.text).line_number as usize;
+                    files.extend(self.lines.get(line - 1).map(|(file, _)| file.clone()));
+                    self.reach(module, &module.functions[*function].body, files);
+                }
+                Statement::Block(block) => self.reach(module, block, files),
+                Statement::If { accept, reject, .. } => {
+                    self.reach(module, accept, files);
+                    self.reach(module, reject, files);
+                }
+                Statement::Switch { cases, .. } => {
+                    cases.iter().for_each(|case| self.reach(module, &case.body, files));
+                }
+                Statement::Loop { body, continuing, .. } => {
+                    self.reach(module, body, files);
+                    self.reach(module, continuing, files);
+                }
+                _ => {}
+            }
+        }
     }
 
     /// "shaders/ocean.wgsl:12:5: message", from a place in the joined text.
@@ -101,6 +162,7 @@ impl Source {
 fn compile(
     source: &Source,
     file: &Path,
+    flavour: &Flavour,
     out: &Path,
     generated: &mut String,
     reflection: &mut Reflection,
@@ -112,12 +174,19 @@ fn compile(
         .validate(&module)
         .map_err(|error| source.error(error.location(&source.text), &describe(error.as_inner())))?;
     reflection.add(&module).map_err(|message| source.error(None, &message))?;
-    let stem = file.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+    let stem = format!("{}{}", flavour.prefix, file.file_stem().unwrap_or_default().to_string_lossy());
     let varies = module.overrides.iter().any(|(_, o)| o.name.as_deref() == Some("CASCADES"));
     for entry in &module.entry_points {
+        // Stages to which the flavour makes no difference are the plain one's.
+        let mut reached = BTreeSet::new();
+        source.reach(&module, &entry.function.body, &mut reached);
+        if !flavour.instead.iter().all(|(_, name)| reached.iter().any(|file| file.ends_with(name))) {
+            continue;
+        }
         let constant = format!("{stem}_{}", entry.name).to_uppercase();
         let mut modules = Vec::new();
-        for cascades in 1..=if varies { MAX_CASCADES } else { 1 } {
+        let first = if varies { flavour.fewest } else { 1 };
+        for cascades in first..=if varies { MAX_CASCADES } else { 1 } {
             let variant = Variant::write(&module, &info, entry, varies.then_some(cascades));
             modules.push(variant.map_err(|message| source.error(None, &message))?);
         }
@@ -126,25 +195,25 @@ fn compile(
         let varies = modules.len() > 1;
         let mut variants = Vec::new();
         let fetches: Vec<String> = modules.iter().map(|variant| variant.fetches.to_string()).collect();
-        for (cascades, Variant { words, .. }) in (1..).zip(modules) {
+        for (cascades, Variant { words, .. }) in (first..).zip(modules) {
             let name = format!("{stem}_{}_{cascades}.spv", entry.name);
             let bytes: Vec<u8> = words.iter().flat_map(|word| word.to_le_bytes()).collect();
             fs::write(out.join(&name), bytes).map_err(|e| format!("{name}: {e}"))?;
             variants.push(format!("include_bytes!(concat!(env!(\"OUT_DIR\"), \"/{name}\"))"));
         }
-        for cascades in 1..=variants.len() {
-            let each = if varies { format!("[{}]", cascades - 1) } else { String::new() };
+        for (index, cascades) in (first..).take(variants.len()).enumerate() {
+            let each = if varies { format!("[{index}]") } else { String::new() };
             let name = format!("{stem}.{}", entry.name);
             reflection.modules.push(format!("(\"{name}\", {cascades}, {constant}{each})"));
         }
         let about = format!("/// `{}`, `{}`", file.display(), entry.name);
         let counted = format!("/// Texture fetches of [`{constant}`], at most, each time that it runs");
         let _never = if varies {
-            let (list, fetches) = (variants.join(", "), fetches.join(", "));
+            let (count, list, fetches) = (variants.len(), variants.join(", "), fetches.join(", "));
             writeln!(
                 generated,
-                "{about}, for 1 to {MAX_CASCADES} cascades.\npub static {constant}: [&[u8]; {MAX_CASCADES}] = [{list}];\n\
-                 {counted}.\npub const {constant}_FETCHES: [u32; {MAX_CASCADES}] = [{fetches}];"
+                "{about}, for {first} to {MAX_CASCADES} cascades.\npub static {constant}: [&[u8]; {count}] = [{list}];\n\
+                 {counted}.\npub const {constant}_FETCHES: [u32; {count}] = [{fetches}];"
             )
         } else {
             writeln!(
@@ -245,7 +314,7 @@ fn fetches(module: &Module, function: &Function, block: &Block) -> u32 {
 #[derive(Default)]
 struct Reflection {
     bindings: BTreeMap<u32, &'static str>,
-    uniform_size: u32,
+    uniform_sizes: BTreeMap<String, u32>,
     modules: Vec<String>,
 }
 
@@ -260,7 +329,7 @@ impl Reflection {
             let inner = &module.types[variable.ty].inner;
             let kind = match (variable.space, inner) {
                 (AddressSpace::Uniform, TypeInner::Struct { span, .. }) => {
-                    self.uniform_size = *span;
+                    self.uniform_sizes.insert(name.to_uppercase(), *span);
                     "Uniform"
                 }
                 (_, TypeInner::Image { .. }) => "Texture",
@@ -280,14 +349,22 @@ impl Reflection {
     fn write(&self, generated: &mut String) {
         let list: Vec<String> =
             self.bindings.iter().map(|(number, kind)| format!("({number}, BindingKind::{kind})")).collect();
+        let sizes: String = self
+            .uniform_sizes
+            .iter()
+            .map(|(name, size)| {
+                format!(
+                    "/// Bytes of the uniform block of that name.\npub const {name}_SIZE: usize = {size};\n"
+                )
+            })
+            .collect();
         let _never = writeln!(
             generated,
             "/// Every binding of every shader.\npub static BINDINGS: &[(u32, BindingKind)] = &[{}];\n\
-             /// Bytes of the uniform block.\npub const UNIFORM_SIZE: usize = {};\n\
+             {sizes}\
              /// Every module: its file and entry point, the number of cascades it is for (1 where that does not matter), SPIR-V.\n\
              pub static MODULES: &[(&str, u32, &[u8])] = &[{}];",
             list.join(", "),
-            self.uniform_size,
             self.modules.join(", ")
         );
     }

@@ -13,6 +13,8 @@ use swell::sea::{Sea, SeaMaps, Surface};
 /// Seconds: any moment but 0, where every harmonic begins.
 const TIME: f64 = 12.5;
 const SIZE: [u32; 2] = [320, 180];
+/// Those whose waves are formulas.
+const FORMULAS: [&str; 4] = ["pond", "gerstner", "sum_of_sines", "fbm_sea"];
 const VIEWS: [&str; 6] = ["wireframe", "lod", "normal", "jacobian", "height", "holes"];
 
 fn debug_view(word: &str) {
@@ -42,6 +44,26 @@ fn calm() {
 #[test]
 fn storm() {
     scene("storm");
+}
+
+#[test]
+fn pond() {
+    scene("pond");
+}
+
+#[test]
+fn gerstner() {
+    scene("gerstner");
+}
+
+#[test]
+fn sum_of_sines() {
+    scene("sum_of_sines");
+}
+
+#[test]
+fn fbm_sea() {
+    scene("fbm_sea");
 }
 
 #[test]
@@ -131,7 +153,7 @@ fn raft() {
 
 #[test]
 fn every_golden_picture_has_a_test_and_is_small() {
-    let wanted = SCENES.map(str::to_owned).into_iter();
+    let wanted = SCENES.into_iter().chain(FORMULAS).map(str::to_owned);
     let wanted =
         wanted.chain(VIEWS.map(|view| format!("debug_{view}"))).chain(["stereo", "raft"].map(str::to_owned));
     let wanted: BTreeSet<String> = wanted.map(|name| format!("{name}.png")).collect();

@@ -18,6 +18,7 @@ mod ocean;
 mod patch_grid;
 mod raft;
 mod renderer;
+mod sea_stages;
 mod sea_textures;
 mod sky;
 mod sky_map;
@@ -27,6 +28,7 @@ mod solids;
 mod uniforms;
 mod vertex_input;
 mod vignette;
+mod waves;
 
 pub use buoy::{BUOY_SOLIDS, Buoy};
 pub use camera::{Eye, Fov, NEAR, eyes};
@@ -42,6 +44,7 @@ pub use sea_textures::SeaTextures;
 pub use sky_map::SkyMap;
 pub use sky_picture::SkyError;
 pub use solids::{MOST_SOLIDS, Pose, Shape, Solid};
+pub use waves::Waves;
 
 /// SPIR-V and reflection, written by build.rs.
 pub mod shaders {

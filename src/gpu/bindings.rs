@@ -136,8 +136,8 @@ impl Bindings {
         }
     }
 
-    /// Binds set `index` with its uniform block at `offset`.
-    pub fn bind(&self, commands: Recorder<'_>, index: usize, offset: u32) {
+    /// Binds set `index` with its uniform blocks at `offsets`, one for each, by the numbers of their bindings.
+    pub fn bind(&self, commands: Recorder<'_>, index: usize, offsets: &[u32]) {
         // SAFETY: `commands` is recording; the set is whole.
         unsafe {
             self.device.raw.cmd_bind_descriptor_sets(
@@ -146,7 +146,7 @@ impl Bindings {
                 self.pipeline_layout,
                 0,
                 &[self.sets[index]],
-                &[offset],
+                offsets,
             );
         }
     }

@@ -1,14 +1,16 @@
 //! Every key of a scene file. Reading, checking, defaults and `docs/scene.md` all come from these tables.
+use super::CameraSettings;
 use super::draft::{CascadeDraft, LodDraft, SkyDraft, SkyModel};
-use super::key::{Absent, Key, Kind, angle, color, number, optional, position, power_of_two, word};
-use super::{CameraSettings, WaterSettings};
+use super::key::{Absent, Key, Kind, angle, number, optional, position, power_of_two, word};
 use crate::lod::Quality;
 use crate::sea::{FoamSettings, NormalKind, SeaSettings, Spectrum};
 
 mod raft;
+mod water;
 mod waves;
 
 pub(super) use raft::{BUOY, RAFT};
+pub(super) use water::WATER;
 pub(super) use waves::{ANY_SEA, FBM, FBM_FOAM, LAYER, STILL_WATER, WAVE};
 
 /// Keys of `[sea]` with model "fft" that hold for the sea as a whole.
@@ -306,37 +308,6 @@ pub(super) static SKY: &[Key<SkyDraft>] = &[
         30_000.0,
         |s, v| s.visibility = v,
         "Distance at which haze leaves 2 % of the contrast.",
-    ),
-];
-
-/// Keys of `[water]`.
-pub(super) static WATER: &[Key<WaterSettings>] = &[
-    color(
-        "deep_color",
-        [0.002, 0.014, 0.026],
-        |w, v| w.deep_color = v.map(|c| c as f32),
-        "Diffuse reflectance of deep water seen from straight above, linear Rec. 709.",
-    ),
-    color(
-        "scatter_color",
-        [0.01, 0.11, 0.1],
-        |w, v| w.scatter_color = v.map(|c| c as f32),
-        "Colour of light that came through a crest, linear Rec. 709.",
-    ),
-    number("scatter", "", [0.0, 10.0], 1.0, |w, v| w.scatter = v, "Strength of that light."),
-    color(
-        "foam_color",
-        [0.8, 0.83, 0.85],
-        |w, v| w.foam_color = v.map(|c| c as f32),
-        "Albedo of foam, linear Rec. 709.",
-    ),
-    number(
-        "detail",
-        "",
-        [0.0, 4.0],
-        1.0,
-        |w, v| w.detail = v,
-        "Factor on the slopes used for shading; 1 is physical.",
     ),
 ];
 
