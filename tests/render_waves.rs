@@ -1,12 +1,14 @@
-//! Formulas drawn: the shaders' waves are Rust's, point by point.
+//! Formulas drawn: the shaders' waves are Rust's, point by point; and far pixels show the mean of what is in them.
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 mod support;
 
 use ash::vk;
 use glam::DVec3;
 use std::sync::Arc;
+use support::picture::Picture;
 use support::random::Random;
-use swell::draw::{Waves, shaders};
+use support::stage::{Stage, shipped};
+use swell::draw::{Look, Waves, shaders};
 use swell::gpu::{
     BindingKind, Bindings, Blend, Buffer, Commands, DepthUse, Device, DeviceNeeds, Directly, Instance,
     MemoryLocation, PhysicalDevice, Pipeline, PipelineInfo, Resource, Target, TargetInfo, Turn, UploadRing,
@@ -241,5 +243,54 @@ fn shaders_and_rust_agree() {
         assert!(moves > 0.1, "{name}: waves are wanted, {moves} m is the most");
         assert!(worst[0] < 1e-4 && worst[1] < 1e-3, "{name}: displacement, normal: {worst:?}");
         assert!(worst[2] < 1e-3 && worst[3] < 1e-3, "{name}: foam, reflection: {worst:?}");
+    }
+}
+
+/// Pixels of a picture, and how many times as many the one has that says what ought to be in them.
+const FAR: [u32; 2] = [320, 180];
+const FINER: u32 = 6;
+/// Of two frames, seconds.
+const TIMES: [f64; 2] = [12.5, 12.5 + 1.0 / 36.0];
+
+/// Luminance of each pixel, linear, averaged over squares of `side`.
+fn luminance(picture: &Picture, side: u32) -> Vec<f64> {
+    let linear = |byte: u8| {
+        let share = f64::from(byte) / 255.0;
+        if share <= 0.040_45 { share / 12.92 } else { ((share + 0.055) / 1.055).powf(2.4) }
+    };
+    let width = picture.size[0] / side;
+    let mut sums = vec![0.0; (width * picture.size[1] / side) as usize];
+    for (x, y) in (0..picture.size[1]).flat_map(|y| (0..picture.size[0]).map(move |x| (x, y))) {
+        let [r, g, b] = picture.pixel(x, y).map(linear);
+        let light = 0.2126 * r + 0.7152 * g + 0.0722 * b;
+        sums[(y / side * width + x / side) as usize] += light / f64::from(side * side);
+    }
+    sums
+}
+
+/// Far water is as bright as it ought to be, and changes from a frame to the next as much as it ought to: what is not
+/// filtered sparkles: without the filter fbm_sea changes by 0.039.
+#[test]
+fn far_pixels_show_the_mean_of_what_is_in_them() {
+    for (name, rows) in [("fbm_sea", 56..66), ("sum_of_sines", 59..66)] {
+        let scene = shipped(name);
+        let frames = |finer: u32| {
+            let mut stage = Stage::new(&scene, FAR.map(|side| side * finer), 1, Look::Water, TIMES[0]);
+            let mut band = |time| {
+                let all = luminance(&stage.picture(time, &[]), finer);
+                all[(rows.start * FAR[0]) as usize..(rows.end * FAR[0]) as usize].to_vec()
+            };
+            TIMES.map(&mut band)
+        };
+        let [coarse, fine] = [frames(1), frames(FINER)];
+        let root = |a: &[f64], b: &[f64]| {
+            (a.iter().zip(b).map(|(a, b)| (a - b).powi(2)).sum::<f64>() / a.len() as f64).sqrt()
+        };
+        let mean = |band: &[f64]| band.iter().sum::<f64>() / band.len() as f64;
+        let brighter = mean(&coarse[0]) - mean(&fine[0]);
+        let (changes, ought) = (root(&coarse[0], &coarse[1]), root(&fine[0], &fine[1]));
+        println!("{name}: brighter by {brighter:.4}, changes by {changes:.4}, {ought:.4} is wanted");
+        assert!(brighter.abs() < 0.04, "{name}: brighter by {brighter}");
+        assert!(changes < 2.0 * ought, "{name}: changes by {changes}, {ought} is wanted");
     }
 }
