@@ -8,6 +8,7 @@ use support::golden;
 use support::program::names;
 use support::stage::{SCENES, Stage, eye, shipped};
 use swell::draw::{Buoy, Eye, Fov, Hand, Look, Pose, Raft, hand, ray};
+use swell::scene::{Mirrored, Scene, Shading};
 use swell::sea::{Sea, SeaMaps, Surface};
 
 /// Seconds: any moment but 0, where every harmonic begins.
@@ -64,6 +65,27 @@ fn sum_of_sines() {
 #[test]
 fn fbm_sea() {
     scene("fbm_sea");
+}
+
+/// Formulas on a spectral sea: a swell, and rings around a place in front of the camera.
+#[test]
+fn layers() {
+    let calm = concat!(env!("CARGO_MANIFEST_DIR"), "/scenes/calm.toml");
+    let text = std::fs::read_to_string(calm).unwrap()
+        + "\n[[layer]]\n[[layer.wave]]\nkind = 'gerstner'\nwavelength = 40\nsteepness = 0.2\ndirection_deg = 250\n\
+           [[layer]]\n[[layer.wave]]\nkind = 'circular'\nwavelength = 1.5\namplitude = 0.05\ncentre = [1, -9]\n";
+    let scene = Scene::parse(&text, calm).unwrap();
+    golden::check("layers", &Stage::new(&scene, SIZE, 1, Look::Water, TIME).picture(TIME, &[]));
+}
+
+/// A spectral sea that mirrors one colour and the sun.
+#[test]
+fn blinn_phong() {
+    let mut scene = shipped("open_ocean");
+    scene.water.shading = Shading::BlinnPhong;
+    scene.water.phong.mirrored = Mirrored::Ambient;
+    scene.water.phong.ambient_color = [0.5, 0.7, 0.9];
+    golden::check("blinn_phong", &Stage::new(&scene, SIZE, 1, Look::Water, TIME).picture(TIME, &[]));
 }
 
 #[test]
@@ -154,8 +176,9 @@ fn raft() {
 #[test]
 fn every_golden_picture_has_a_test_and_is_small() {
     let wanted = SCENES.into_iter().chain(FORMULAS).map(str::to_owned);
-    let wanted =
-        wanted.chain(VIEWS.map(|view| format!("debug_{view}"))).chain(["stereo", "raft"].map(str::to_owned));
+    let wanted = wanted
+        .chain(VIEWS.map(|view| format!("debug_{view}")))
+        .chain(["stereo", "raft", "layers", "blinn_phong"].map(str::to_owned));
     let wanted: BTreeSet<String> = wanted.map(|name| format!("{name}.png")).collect();
     let found: BTreeSet<String> = names(&golden::folder()).into_iter().collect();
     assert_eq!(found, wanted);
