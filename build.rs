@@ -1,6 +1,6 @@
 //! Compiles `shaders/*.wgsl` to SPIR-V (`src/draw/wgsl.rs`), so that a shader that does not compile fails the build, with file and line.
 //!
-//! Bindings and the size of the uniform block are reflected into Rust, so no table is kept by hand.
+//! Bindings and sizes of uniform blocks are reflected into Rust, so no table is kept by hand.
 //!
 //! Output: `$OUT_DIR/shaders.rs` and the `.spv` files it includes. See docs/shaders.md.
 
@@ -10,7 +10,7 @@ mod wgsl;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::{env, fs, process};
-use wgsl::{Failure, MAX_CASCADES, Reflection};
+use wgsl::{Entry, Failure, MAX_CASCADES, Reflection};
 
 fn main() {
     println!("cargo::rerun-if-changed=shaders");
@@ -43,31 +43,28 @@ fn compile(
     reflection: &mut Reflection,
     listed: &mut Vec<String>,
 ) -> Result<(), Failure> {
-    let stem = file.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-    for entry in wgsl::compile(file, reflection)? {
-        let constant = format!("{stem}_{}", entry.name).to_uppercase();
-        let modules = entry.variants;
+    for Entry { stem, name: entry, first, variants: modules } in wgsl::compile(file, reflection)? {
+        let constant = format!("{stem}_{entry}").to_uppercase();
         let varies = modules.len() > 1;
         let mut variants = Vec::new();
         let fetches: Vec<String> = modules.iter().map(|variant| variant.fetches.to_string()).collect();
-        for (cascades, variant) in (1..).zip(&modules) {
-            let name = format!("{stem}_{}_{cascades}.spv", entry.name);
+        for (cascades, variant) in (first..).zip(&modules) {
+            let name = format!("{stem}_{entry}_{cascades}.spv");
             fs::write(out.join(&name), variant.bytes()).map_err(|e| format!("{name}: {e}"))?;
             variants.push(format!("include_bytes!(concat!(env!(\"OUT_DIR\"), \"/{name}\"))"));
         }
-        for cascades in 1..=variants.len() {
-            let each = if varies { format!("[{}]", cascades - 1) } else { String::new() };
-            let name = format!("{stem}.{}", entry.name);
-            listed.push(format!("(\"{name}\", {cascades}, {constant}{each})"));
+        for (index, cascades) in (first..).take(variants.len()).enumerate() {
+            let each = if varies { format!("[{index}]") } else { String::new() };
+            listed.push(format!("(\"{stem}.{entry}\", {cascades}, {constant}{each})"));
         }
-        let about = format!("/// `{}`, `{}`", file.display(), entry.name);
+        let about = format!("/// `{}`, `{entry}`", file.display());
         let counted = format!("/// Texture fetches of [`{constant}`], at most, each time that it runs");
         let _never = if varies {
-            let (list, fetches) = (variants.join(", "), fetches.join(", "));
+            let (count, list, fetches) = (variants.len(), variants.join(", "), fetches.join(", "));
             writeln!(
                 generated,
-                "{about}, for 1 to {MAX_CASCADES} cascades.\npub static {constant}: [&[u8]; {MAX_CASCADES}] = [{list}];\n\
-                 {counted}.\npub const {constant}_FETCHES: [u32; {MAX_CASCADES}] = [{fetches}];"
+                "{about}, for {first} to {MAX_CASCADES} cascades.\npub static {constant}: [&[u8]; {count}] = [{list}];\n\
+                 {counted}.\npub const {constant}_FETCHES: [u32; {count}] = [{fetches}];"
             )
         } else {
             writeln!(
@@ -84,14 +81,20 @@ fn compile(
 fn write(reflection: &Reflection, modules: &[String], generated: &mut String) {
     let list: Vec<String> =
         reflection.bindings.iter().map(|(number, kind)| format!("({number}, BindingKind::{kind})")).collect();
+    for (name, size) in &reflection.uniform_sizes {
+        let about = "/// Bytes of the uniform block of that name.";
+        let _never = writeln!(generated, "{about}\npub const {name}_SIZE: usize = {size};");
+    }
+    let sizes: Vec<String> =
+        reflection.uniform_sizes.iter().map(|(name, size)| format!("(\"{name}\", {size})")).collect();
     let _never = writeln!(
         generated,
         "/// Every binding of every shader.\npub static BINDINGS: &[(u32, BindingKind)] = &[{}];\n\
-         /// Bytes of the uniform block.\npub const UNIFORM_SIZE: usize = {};\n\
+         /// Every uniform block and its bytes.\npub static UNIFORM_SIZES: &[(&str, u32)] = &[{}];\n\
          /// Every module: its file and entry point, the number of cascades it is for (1 where that does not matter), SPIR-V.\n\
          pub static MODULES: &[(&str, u32, &[u8])] = &[{}];",
         list.join(", "),
-        reflection.uniform_size,
+        sizes.join(", "),
         modules.join(", ")
     );
 }

@@ -1,6 +1,5 @@
 // What --debug shows instead of water.
 #include "waves.wgsl"
-#include "water.wgsl"
 
 // A colour for each level of the quadtree, told apart by hue and lightness. Twin: lod::level_color.
 fn level_color(level: f32) -> vec3f {

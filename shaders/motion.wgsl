@@ -22,14 +22,13 @@ fn moved(now: vec4f, before: vec4f) -> MotionVaryings {
     return MotionVaryings(now, now, before);
 }
 
-// A point of the sea is its rest point. Detail is chosen for the head now in both frames: what changes with the viewer
-// alone does not move.
+// A point of the sea is its rest point. What changes with the viewer alone does not move.
 @vertex
 fn patch_main(in: Patch, @builtin(view_index) view: u32) -> MotionVaryings {
     let rest = rest_position(in);
     let still = vec3f(rest.x, 0.0, rest.y);
     let now = still + displacement(rest);
-    let before = still + displacement_in(previous_0, previous_1, previous_2, previous_3, rest);
+    let before = still + displacement_before(rest);
     return moved(
         frame.views[view].projection * vec4f(now, 1.0),
         frame.previous_view_projection[view] * vec4f(before, 1.0),

@@ -5,33 +5,18 @@
 #include "matt.wgsl"
 #include "shadows.wgsl"
 
-// Varyings without the level, and the place on the sun's map.
-struct Shadowed {
-    @builtin(position) clip: vec4f,
-    @location(0) maps_01: vec4f,
-    @location(4) maps_23: vec4f,
-    @location(5) pattern: vec2f,
-    @location(1) from_eye: vec3f,
-    @location(2) height: f32,
-    @location(3) on_map: vec3f,
-}
-
 @vertex
 fn patch_main(in: Patch, @builtin(view_index) view: u32) -> Shadowed {
     let rest = rest_position(in);
     let position = vec3f(rest.x, 0.0, rest.y) + displacement(rest);
-    let seen = seen_from(position, rest, view);
-    return Shadowed(
-        seen.clip, seen.maps_01, seen.maps_23, seen.pattern, seen.from_eye, seen.height, on_sun_map(position)
-    );
+    return shadowed(seen_from(position, rest, view), on_sun_map(position));
 }
 
 @fragment
 fn water_main(in: Shadowed) -> @location(0) vec4f {
     let square = dot(in.from_eye, in.from_eye);
     let sun = sun_on_water(in.on_map, square * inverseSqrt(square));
-    let seen = Varyings(in.clip, in.maps_01, in.maps_23, in.pattern, in.from_eye, in.height, 0.0);
-    return vec4f(shade(seen, sun), 1.0);
+    return vec4f(shade(seen_shadowed(in), sun), 1.0);
 }
 
 @vertex

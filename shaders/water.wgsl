@@ -5,42 +5,6 @@
 // Reflectance of water seen along its normal.
 const F0: f32 = 0.02;
 
-struct Surface {
-    // Sum over cascades of -dh/dx and -dh/dz.
-    tilt: vec2f,
-    // Sum of the squared roughnesses (GGX alpha) of what the maps' mips have averaged away, the water's own counted once.
-    alpha_squared: f32,
-    // Sum over cascades of 1 - J now.
-    compression: f32,
-}
-
-fn add_gradient(surface: ptr<function, Surface>, texel: vec4f, cascade: u32) {
-    // to_world of the normal's level part, 2 texel - 1, in one step.
-    let c = frame.cascades[cascade];
-    let level = to_world(texel.xy, c.twice_axes) + c.middle;
-    (*surface).tilt += level * inverseSqrt(max(1.0 - level.x * level.x - level.y * level.y, 0.04));
-    let root = 1.0 - texel.w;
-    let alpha = root * root;
-    (*surface).alpha_squared += alpha * alpha;
-    (*surface).compression += max(2.0 - 2.0 * texel.z, 0.0);
-}
-
-fn surface_at(in: Varyings) -> Surface {
-    var s: Surface;
-    s.alpha_squared = -frame.sky_light.w;
-    add_gradient(&s, textureSample(gradient_0, oblique, in.maps_01.xy), 0u);
-    if CASCADES > 1u {
-        add_gradient(&s, textureSample(gradient_1, oblique, in.maps_01.zw), 1u);
-    }
-    if CASCADES > 2u {
-        add_gradient(&s, textureSample(gradient_2, oblique, in.maps_23.xy), 2u);
-    }
-    if CASCADES > 3u {
-        add_gradient(&s, textureSample(gradient_3, oblique, in.maps_23.zw), 3u);
-    }
-    return s;
-}
-
 // Schlick's reflectance at a cosine, times a factor.
 fn fresnel(cosine: f32, factor: f32) -> f32 {
     let m = saturate(1.0 - cosine);
@@ -66,21 +30,6 @@ fn sun_lobe(n_v: f32, n_l: f32, v_l: f32, alpha_squared: f32) -> f32 {
     return fresnel(square * inverse, 8.0 / PI) * lit * alpha_squared / (d * d * smith);
 }
 
-// Compression that the displacement maps remember: finer than the mesh could carry it here.
-fn remembered(in: Varyings) -> f32 {
-    var sum = textureSample(displacement_0, tiling, in.maps_01.xy).w;
-    if CASCADES > 1u {
-        sum += textureSample(displacement_1, tiling, in.maps_01.zw).w;
-    }
-    if CASCADES > 2u {
-        sum += textureSample(displacement_2, tiling, in.maps_23.xy).w;
-    }
-    if CASCADES > 3u {
-        sum += textureSample(displacement_3, tiling, in.maps_23.zw).w;
-    }
-    return sum;
-}
-
 struct Foam {
     // Share of the surface that it hides.
     cover: f32,
@@ -88,12 +37,9 @@ struct Foam {
     brightness: f32,
 }
 
-// The compression's range, broken up by the pattern. From afar the pattern's mips are grey, and the edge is soft, so that
+// An amount of foam, 0 to 1, broken up by the pattern. From afar the pattern's mips are grey, and the edge is soft, so that
 // the mean cover stays as it is.
-fn foam_at(in: Varyings, compression: f32, distance: f32) -> Foam {
-    let range = frame.foam_range;
-    let along = saturate(compression * range.y - range.x);
-    let amount = along * along * (3.0 - 2.0 * along);
+fn foam_at(in: Varyings, amount: f32, distance: f32) -> Foam {
     let soft = mix(0.28, 1.0, saturate(distance * 0.006));
     let gaps = textureSample(foam_pattern, tiling, in.pattern).r;
     let cover = saturate((amount - gaps) / soft + 0.5) * saturate(amount * 8.0);
@@ -137,22 +83,23 @@ fn shade(in: Varyings, sun: vec2f) -> vec3f {
     let towards = across * n_v + along;
     let twice = 2.0 * towards;
     let mirrored = upright * (twice * across * length) + ray * straight;
-    let squeezed = remembered(in);
+    let amount = foaminess(in, surface);
     let reflected = sky_radiance(mirrored, frame.air.z + log2(alpha));
     let seen_square = straight + along * twice;
     let kept = air_keeps(distance);
     let through = max(in.height, 0.0) * facing * (both * both);
     let reflectance = fresnel(towards * inverseSqrt(seen_square), 1.0);
-    let foam = foam_at(in, squeezed, distance);
+    let foam = foam_at(in, amount, distance);
 
     let water = kept - kept * foam.cover;
     let below = water - water * reflectance;
+    let mirror = water * gloss(surface);
     let white = kept * foam.cover * foam.brightness;
     let matt = frame.deep.rgb * below + frame.foam.rgb * white;
-    let glitter = water * sun_lobe(n_v, n_l, v_l, alpha_squared);
+    let glitter = mirror * sun_lobe(n_v, n_l, v_l, alpha_squared);
     let of_sun = matt * (saturate(n_l) * sun.x) + (frame.scatter.rgb * (through * below * sun.y) + glitter * sun.x);
     return tone_map(
-        frame.sun_light.rgb * of_sun + frame.sky_light.rgb * matt + reflected * (water * reflectance)
+        frame.sun_light.rgb * of_sun + frame.sky_light.rgb * matt + reflected * (mirror * reflectance)
             + far * (1.0 - kept)
     );
 }

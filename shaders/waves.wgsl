@@ -1,5 +1,5 @@
-// The displaced surface at a vertex, from the displacement maps.
-#include "frame.wgsl"
+// The displaced surface of a spectral sea, from its maps. analytic.wgsl takes this file's place where other waves add to it.
+#include "maps.wgsl"
 
 struct Varyings {
     @builtin(position) clip: vec4f,
@@ -16,19 +16,39 @@ struct Varyings {
     @location(3) @interpolate(flat) level: f32,
 }
 
+struct Surface {
+    // Sum over cascades of -dh/dx and -dh/dz.
+    tilt: vec2f,
+    // Sum of the squared roughnesses (GGX alpha) of what the maps' mips have averaged away, the water's own counted once.
+    alpha_squared: f32,
+    // Sum over cascades of 1 - J now.
+    compression: f32,
+}
+
+// Varyings where shadows fall: without the level, and with the place on the sun's map.
+struct Shadowed {
+    @builtin(position) clip: vec4f,
+    @location(0) maps_01: vec4f,
+    @location(4) maps_23: vec4f,
+    @location(5) pattern: vec2f,
+    @location(1) from_eye: vec3f,
+    @location(2) height: f32,
+    @location(3) on_map: vec3f,
+}
+
+fn shadowed(in: Varyings, on_map: vec3f) -> Shadowed {
+    return Shadowed(in.clip, in.maps_01, in.maps_23, in.pattern, in.from_eye, in.height, on_map);
+}
+
+fn seen_shadowed(in: Shadowed) -> Varyings {
+    return Varyings(in.clip, in.maps_01, in.maps_23, in.pattern, in.from_eye, in.height, 0.0);
+}
+
 // The surface at `position`, which is at `rest` when the sea is.
 fn seen_from(position: vec3f, rest: vec2f, view: u32) -> Varyings {
     var out: Varyings;
-    out.maps_01 = vec4f(map_coordinates(rest, 0u), 0.0, 0.0);
-    if CASCADES > 1u {
-        out.maps_01 = vec4f(out.maps_01.xy, map_coordinates(rest, 1u));
-    }
-    if CASCADES > 2u {
-        out.maps_23 = vec4f(map_coordinates(rest, 2u), 0.0, 0.0);
-    }
-    if CASCADES > 3u {
-        out.maps_23 = vec4f(out.maps_23.xy, map_coordinates(rest, 3u));
-    }
+    out.maps_01 = places_01(rest);
+    out.maps_23 = places_23(rest);
     out.clip = to_clip(position, view);
     // A whole number of repeats a patch of the first cascade: the pattern lies still on the water wherever the origin is.
     out.pattern = out.maps_01.xy * frame.foam_range.z;
@@ -37,42 +57,32 @@ fn seen_from(position: vec3f, rest: vec2f, view: u32) -> Varyings {
     return out;
 }
 
-fn displace_by(map: texture_2d<f32>, cascade: u32, rest: vec2f, log_distance: f32) -> vec3f {
-    let c = frame.cascades[cascade];
-    // The mip whose texels are as wide as the grid's cells, so that waves the grid cannot carry are not in it.
-    let mip = log_distance - c.log_reach;
-    let d = textureSampleLevel(map, tiling, map_coordinates(rest, cascade), mip);
-    let xz = to_world(d.xz, c.axes);
-    return vec3f(xz.x, d.y, xz.y);
-}
-
-// Displacement (x, y, z) of the rest point, from the maps of one moment.
-fn displacement_in(
-    map_0: texture_2d<f32>,
-    map_1: texture_2d<f32>,
-    map_2: texture_2d<f32>,
-    map_3: texture_2d<f32>,
-    rest: vec2f,
-) -> vec3f {
-    let from_head = vec3f(rest.x, 0.0, rest.y) - frame.head.xyz;
-    // Half the logarithm of a square is the logarithm, without a root.
-    let log_distance = 0.5 * log2(clamp(dot(from_head, from_head), frame.lod.z, frame.lod.w));
-    var sum = displace_by(map_0, 0u, rest, log_distance);
-    if CASCADES > 1u {
-        sum += displace_by(map_1, 1u, rest, log_distance);
-    }
-    if CASCADES > 2u {
-        sum += displace_by(map_2, 2u, rest, log_distance);
-    }
-    if CASCADES > 3u {
-        sum += displace_by(map_3, 3u, rest, log_distance);
-    }
-    // Flat at the quadtree's border, where the skirt goes on. Twin: lod::border_fade.
-    let border = saturate(max(abs(rest.x), abs(rest.y)) * frame.lod.x - 2.5);
-    return sum * (1.0 - border * border * (3.0 - 2.0 * border));
-}
-
-// Displacement now.
+// Displacement (x, y, z) of the rest point now.
 fn displacement(rest: vec2f) -> vec3f {
-    return displacement_in(displacement_0, displacement_1, displacement_2, displacement_3, rest);
+    let sum = displacement_by_maps(
+        displacement_0, displacement_1, displacement_2, displacement_3, rest, log_distance_of(rest));
+    return sum * border_keeps(rest);
+}
+
+// The same in the frame before. Detail is chosen for the head now in both.
+fn displacement_before(rest: vec2f) -> vec3f {
+    let sum = displacement_by_maps(previous_0, previous_1, previous_2, previous_3, rest, log_distance_of(rest));
+    return sum * border_keeps(rest);
+}
+
+fn surface_at(in: Varyings) -> Surface {
+    var s: Surface;
+    s.alpha_squared = -frame.sky_light.w;
+    add_gradients(&s, in);
+    return s;
+}
+
+// Share of the surface where foam is to be, 0 to 1.
+fn foaminess(in: Varyings, surface: Surface) -> f32 {
+    return foam_of(remembered(in));
+}
+
+// What foam leaves of reflections besides what it hides.
+fn gloss(surface: Surface) -> f32 {
+    return 1.0;
 }

@@ -8,12 +8,14 @@ use support::golden;
 use support::program::names;
 use support::stage::{SCENES, Stage, eye, shipped};
 use swell::draw::{Buoy, Eye, Fov, Hand, Look, Pose, Raft, Shape, Solid, hand, ray};
-use swell::scene::Shadows;
+use swell::scene::{Mirrored, Scene, Shading, Shadows};
 use swell::sea::{Sea, SeaMaps, Surface};
 
 /// Seconds: any moment but 0, where every harmonic begins.
 const TIME: f64 = 12.5;
 const SIZE: [u32; 2] = [320, 180];
+/// Those whose waves are formulas.
+const FORMULAS: [&str; 4] = ["pond", "gerstner", "sum_of_sines", "fbm_sea"];
 const VIEWS: [&str; 6] = ["wireframe", "lod", "normal", "jacobian", "height", "holes"];
 
 fn debug_view(word: &str) {
@@ -43,6 +45,47 @@ fn calm() {
 #[test]
 fn storm() {
     scene("storm");
+}
+
+#[test]
+fn pond() {
+    scene("pond");
+}
+
+#[test]
+fn gerstner() {
+    scene("gerstner");
+}
+
+#[test]
+fn sum_of_sines() {
+    scene("sum_of_sines");
+}
+
+#[test]
+fn fbm_sea() {
+    scene("fbm_sea");
+}
+
+/// Formulas on a spectral sea: a swell, and rings around a place in front of the camera.
+#[test]
+fn layers() {
+    let calm = concat!(env!("CARGO_MANIFEST_DIR"), "/scenes/calm.toml");
+    let text = std::fs::read_to_string(calm).unwrap()
+        + "\n[[layer]]\n[[layer.wave]]\nkind = 'gerstner'\nwavelength = 40\nsteepness = 0.2\ndirection_deg = 250\n\
+           [[layer]]\n[[layer.wave]]\nkind = 'circular'\nwavelength = 1.5\namplitude = 0.05\ncentre = [1, -9]\n";
+    let scene = Scene::parse(&text, calm).unwrap();
+    golden::check("layers", &Stage::new(&scene, SIZE, 1, Look::Water, TIME).picture(TIME, &[]));
+}
+
+/// A spectral sea that mirrors one colour and the sun.
+#[test]
+fn blinn_phong() {
+    let mut scene = shipped("open_ocean");
+    scene.water.shading = Shading::BlinnPhong;
+    scene.water.phong.mirrored = Mirrored::Ambient;
+    scene.water.phong.ambient_color = [0.5, 0.7, 0.9];
+    golden::check("blinn_phong", &Stage::new(&scene, SIZE, 1, Look::Water, TIME).picture(TIME, &[]));
 }
 
 #[test]
@@ -166,10 +209,10 @@ fn raft() {
 
 #[test]
 fn every_golden_picture_has_a_test_and_is_small() {
-    let wanted = SCENES.map(str::to_owned).into_iter();
+    let wanted = SCENES.into_iter().chain(FORMULAS).map(str::to_owned);
     let wanted = wanted
         .chain(VIEWS.map(|view| format!("debug_{view}")))
-        .chain(["stereo", "raft", "shadows"].map(str::to_owned));
+        .chain(["stereo", "raft", "shadows", "layers", "blinn_phong"].map(str::to_owned));
     let wanted: BTreeSet<String> = wanted.map(|name| format!("{name}.png")).collect();
     let found: BTreeSet<String> = names(&golden::folder()).into_iter().collect();
     assert_eq!(found, wanted);

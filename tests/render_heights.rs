@@ -32,9 +32,40 @@ const TIME: f64 = 77.0;
 /// Metres from the eye within which the mesh is as fine as the argument wants.
 const REACH: f64 = 60.0;
 
+/// Formulas of waves so long that triangles, flat through three of a wave's points, are off by less than s^2 k^2 / 8, 2e-4,
+/// of what is displaced; vertices are so near each other that the mesh shows all of them.
+const FORMULAS: &str = "
+model = 'waves'
+[[layer.wave]]
+kind = 'gerstner'
+wavelength = 120
+steepness = 0.3
+direction_deg = 200
+[[layer.wave]]
+kind = 'circular'
+wavelength = 90
+amplitude = 1.5
+centre = [40, -300]
+";
+
 #[test]
 fn drawn_heights_are_the_querys() {
-    let scene = Scene::parse(SCENE, "heights.toml").unwrap();
+    compare(SCENE);
+}
+
+#[test]
+fn drawn_heights_of_formulas_are_the_querys() {
+    let [_, lod] = SCENE.split("[lod]").collect::<Vec<_>>()[..] else { panic!("no [lod]") };
+    compare(&format!("[sea]\n{}[lod]{lod}", FORMULAS.replace("layer", "sea")));
+}
+
+#[test]
+fn drawn_heights_of_layers_are_the_querys() {
+    compare(&format!("{SCENE}\n[[layer]]\n{FORMULAS}"));
+}
+
+fn compare(scene: &str) {
+    let scene = Scene::parse(scene, "heights.toml").unwrap();
     let mut sea = Sea::new(&scene.sea).unwrap();
     let mut maps = sea.new_maps();
     sea.step(TIME, &mut maps).unwrap();

@@ -11,11 +11,14 @@ use std::fmt::Write as _;
 use swell::draw::shaders::MODULES;
 use swell::draw::{Look, Renderer, SkyMap};
 use swell::gpu::{Device, DeviceNeeds, Instance, Opener, Target, TargetInfo, Validation};
-use swell::scene::{Scene, Shadows};
+use swell::scene::{Scene, Shading, Shadows};
 use swell::sea::settings::MAX_CASCADES;
 
 /// Of the shipped scenes.
 const USUAL_CASCADES: usize = 3;
+
+/// Any will do: shaders are the same for all.
+const FORMULAS: &str = "[sea]\nmodel = 'fbm'";
 
 /// Run by the others, on a device that is not there.
 #[test]
@@ -49,6 +52,24 @@ fn compiles_every_pipeline() {
             }
         }
     }
+    // Formulas, and Blinn-Phong, bring stages of their own for the sea alone.
+    let models = Scene::parse(FORMULAS, "formulas").unwrap().sea.models;
+    let others =
+        [(Shading::Physical, &models), (Shading::BlinnPhong, &Vec::new()), (Shading::BlinnPhong, &models)];
+    for (shading, models) in others {
+        scene.water.shading = shading;
+        scene.sea.models.clone_from(models);
+        for cascades in usize::from(models.is_empty())..=MAX_CASCADES {
+            scene.sea.spectral = cascades > 0;
+            scene.sea.cascades.resize(cascades.max(1), first.clone());
+            let mut renderer = Renderer::new(&device, &eyes, &scene, &sky, Look::Water).unwrap();
+            renderer.prepare_motion(&device, &motion).unwrap();
+            let prefix = if shading == Shading::BlinnPhong { "phong_" } else { "analytic_" };
+            for cost in listener::take(cascades).iter().filter(|cost| cost.pipeline.starts_with(prefix)) {
+                println!("{}", cost.line());
+            }
+        }
+    }
 }
 
 #[test]
@@ -78,7 +99,7 @@ fn shaders_keep_to_their_budgets() {
     }
 }
 
-/// A chip's table: with the usual number of cascades, and of what depends on it with the most.
+/// A chip's table: with the usual number of cascades and none, and of what depends on it with the most.
 fn rows(chip: &str, headset: &str, costs: &[Cost]) -> String {
     let mut table = format!(
         "| Adreno {chip}, {headset} | stage | cascades | instructions | of them nops | registers | waves x threads |\n\
@@ -89,7 +110,7 @@ fn rows(chip: &str, headset: &str, costs: &[Cost]) -> String {
         let varies = costs.iter().any(|other| {
             (&other.pipeline, &other.stage) == (pipeline, stage) && other.instructions != *instructions
         });
-        if *cascades == USUAL_CASCADES || *cascades == MAX_CASCADES && varies {
+        if [0, USUAL_CASCADES].contains(cascades) || *cascades == MAX_CASCADES && varies {
             let cascades = if varies { cascades.to_string() } else { "any".to_owned() };
             let _never = writeln!(
                 table,

@@ -1,6 +1,7 @@
 //! What `--debug` can show instead of water.
 
 use super::ocean::Layer;
+use super::sea_stages::SeaStages;
 use super::shaders;
 use std::str::FromStr;
 
@@ -44,20 +45,19 @@ impl FromStr for Look {
 
 impl Look {
     /// What is drawn on the surface, one over the other.
-    pub(super) fn layers(self, cascades: usize) -> Vec<Layer> {
-        let n = cascades - 1;
+    pub(super) fn layers(self, stages: SeaStages) -> Vec<Layer> {
         let layer = |fragment, entry| Layer { fragment, entry, lines: false };
         match self {
             Self::Water | Self::Holes => {
-                vec![layer(shaders::OCEAN_FRAGMENT_MAIN[n], c"fragment_main")]
+                vec![layer(stages.water(), c"fragment_main")]
             }
             Self::Wireframe => vec![
                 layer(shaders::DEBUG_BASE_MAIN, c"base_main"),
                 Layer { fragment: shaders::DEBUG_LINE_MAIN, entry: c"line_main", lines: true },
             ],
-            Self::Lod => vec![layer(shaders::DEBUG_LOD_MAIN[n], c"lod_main")],
-            Self::Normal => vec![layer(shaders::DEBUG_NORMAL_MAIN[n], c"normal_main")],
-            Self::Jacobian => vec![layer(shaders::DEBUG_JACOBIAN_MAIN[n], c"jacobian_main")],
+            Self::Lod => vec![layer(stages.lod(), c"lod_main")],
+            Self::Normal => vec![layer(stages.normal(), c"normal_main")],
+            Self::Jacobian => vec![layer(stages.jacobian(), c"jacobian_main")],
             Self::Height => vec![layer(shaders::DEBUG_HEIGHT_MAIN, c"height_main")],
             Self::Metres => vec![layer(shaders::DEBUG_METRES_MAIN, c"metres_main")],
         }

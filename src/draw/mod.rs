@@ -20,6 +20,7 @@ mod overlay;
 mod patch_grid;
 mod raft;
 mod renderer;
+mod sea_stages;
 mod sea_textures;
 #[cfg(not(target_os = "android"))]
 mod shader_reload;
@@ -33,6 +34,7 @@ mod sun_map;
 mod uniforms;
 mod vertex_input;
 mod vignette;
+mod waves;
 #[cfg(not(target_os = "android"))]
 mod wgsl;
 
@@ -54,6 +56,7 @@ pub use shader_reload::compile_shaders;
 pub use sky_map::SkyMap;
 pub use sky_picture::SkyError;
 pub use solids::{MOST_SOLIDS, Pose, Shape, Solid};
+pub use waves::Waves;
 
 /// SPIR-V and reflection, written by build.rs.
 pub mod shaders {

@@ -8,6 +8,7 @@ use super::camera::Eye;
 use super::counts::DrawCounts;
 use super::moment::Moment;
 use super::ocean::{self, Layer};
+use super::sea_stages::SeaStages;
 use super::shaders as s;
 use super::solids::{MOST_SOLIDS, MOTION_INPUT, Solid};
 use crate::gpu::{
@@ -25,6 +26,7 @@ pub struct Motion {
     sky: Pipeline,
     /// The slot of the frame before.
     slot: Option<usize>,
+    time: f64,
     eyes: Vec<Eye>,
     bodies: Vec<Solid>,
 }
@@ -32,6 +34,8 @@ pub struct Motion {
 /// What the frame before was.
 #[derive(Clone, Copy)]
 pub struct Before<'a> {
+    /// Its sea's time, seconds.
+    pub time: f64,
     /// Where it was seen from.
     pub eyes: &'a [Eye],
     /// What floated.
@@ -44,7 +48,7 @@ pub const fn slot_before(slot: usize) -> usize {
 }
 
 impl Motion {
-    /// Pipelines for `target` and a sea of `cascades`; there is no frame before.
+    /// Pipelines for `target` and a sea drawn by `stages`; there is no frame before.
     ///
     /// # Errors
     /// The driver refuses.
@@ -52,12 +56,11 @@ impl Motion {
         device: &Arc<Device>,
         target: &Target,
         bindings: &Bindings,
-        cascades: usize,
+        stages: SeaStages,
     ) -> Result<Self, GpuError> {
         let fragment = s::MOTION_FRAGMENT_MAIN;
         let layer = Layer { fragment, entry: c"fragment_main", lines: false };
-        let vertex =
-            [(s::MOTION_PATCH_MAIN[cascades - 1], c"patch_main"), (s::MOTION_SKIRT_MAIN, c"skirt_main")];
+        let vertex = [(stages.patch_motion(), c"patch_main"), (s::MOTION_SKIRT_MAIN, c"skirt_main")];
         let solids = PipelineInfo {
             name: "solids' motion",
             vertex: (s::MOTION_SOLID_MAIN, c"solid_main"),
@@ -81,6 +84,7 @@ impl Motion {
             solids: Pipeline::new(device, target, bindings.pipeline_layout, &solids)?,
             sky: Pipeline::new(device, target, bindings.pipeline_layout, &sky)?,
             slot: None,
+            time: 0.0,
             eyes: Vec::with_capacity(2),
             bodies: Vec::with_capacity(MOST_SOLIDS),
         })
@@ -88,12 +92,13 @@ impl Motion {
 
     /// The frame before the one in `slot`, where its maps are still there: frames take the slots in turns.
     pub fn before(&self, slot: usize) -> Option<Before<'_>> {
-        (self.slot == Some(slot_before(slot))).then_some(Before { eyes: &self.eyes, solids: &self.bodies })
+        let before = Before { time: self.time, eyes: &self.eyes, solids: &self.bodies };
+        (self.slot == Some(slot_before(slot))).then_some(before)
     }
 
     /// Keeps what the next frame has to know of this one.
     pub fn remember(&mut self, slot: usize, moment: Moment<'_>) {
-        self.slot = Some(slot);
+        (self.slot, self.time) = (Some(slot), moment.maps.time);
         self.eyes.clear();
         self.eyes.extend_from_slice(moment.eyes);
         self.bodies.clear();

@@ -2,7 +2,7 @@
 
 use super::counts::DrawCounts;
 use super::patch_grid::{GridVertex, PatchGrid};
-use super::shaders;
+use super::sea_stages::SeaStages;
 use super::vertex_input::{by_instance, by_vertex, field};
 use crate::gpu::{
     Bindings, Blend, Buffer, DepthUse, Device, GpuError, Pipeline, PipelineInfo, Recorder, Target,
@@ -68,13 +68,10 @@ impl Ocean {
         target: &Target,
         bindings: &Bindings,
         settings: &lod::LodSettings,
-        cascades: usize,
+        stages: SeaStages,
         layers: &[Layer],
     ) -> Result<Self, GpuError> {
-        let vertex = [
-            (shaders::OCEAN_VERTEX_MAIN[cascades - 1], c"vertex_main"),
-            (shaders::SKIRT_VERTEX_MAIN[cascades - 1], c"vertex_main"),
-        ];
+        let vertex = [(stages.patch(), c"vertex_main"), (stages.skirt(), c"vertex_main")];
         let make = |layer| surface(device, target, bindings, vertex, layer);
         let layers = layers.iter().map(make).collect::<Result<_, GpuError>>()?;
         Ok(Self { layers, meshes: Meshes::new(device, settings)? })

@@ -207,7 +207,7 @@ impl Panel {
         let ring = &mut self.slots[slot].ring;
         let vertices = ring.push(bytemuck::cast_slice(&self.corners), ALIGN)?;
         let indices = ring.push(bytemuck::cast_slice(&mesh.indices), ALIGN)?;
-        texture.bindings.bind(commands, 0, 0);
+        texture.bindings.bind(commands, 0, &[]);
         commands.scissor(corner, size);
         commands.vertex_buffer(0, ring.buffer(), vertices);
         commands.wide_index_buffer(ring.buffer(), indices);

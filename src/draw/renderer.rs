@@ -9,6 +9,7 @@ use super::hidden_area::{HiddenArea, HiddenMesh};
 use super::moment::Moment;
 use super::motion::{self, Motion};
 use super::ocean::Ocean;
+use super::sea_stages::SeaStages;
 use super::sea_textures::SeaTextures;
 use super::shaders::BINDINGS;
 use super::shadow::Shadow;
@@ -17,6 +18,7 @@ use super::sky_map::{self, SkyMap};
 use super::solids::{Solids, Uploaded};
 use super::uniforms::{Constant, Frame, Spacing};
 use super::vignette::Vignette;
+use super::waves::Waves;
 use crate::gpu::{
     Bindings, Device, FRAMES_IN_FLIGHT, GpuError, Image, ImageInfo, Recorder, Resource, Sampler, Target,
     Turn, UploadRing, upload_image,
@@ -33,7 +35,8 @@ const MOST_PATCHES: usize = 4096;
 /// Where the frame recorded last has put things in the ring.
 struct Latest {
     slot: usize,
-    uniforms: u32,
+    /// Of each uniform block.
+    uniforms: [u32; 2],
     instances: u64,
     solids: Uploaded,
     solids_before: Option<u64>,
@@ -51,7 +54,9 @@ pub struct Renderer {
     motion: Option<Motion>,
     shadow: Option<Shadow>,
     latest: Option<Latest>,
-    cascades: usize,
+    stages: SeaStages,
+    /// Where the stages look at them.
+    waves: Option<Waves>,
     look: Look,
     tree: Quadtree,
     frusta: Vec<Frustum>,
@@ -77,50 +82,52 @@ impl Renderer {
         sky_map: &SkyMap,
         look: Look,
     ) -> Result<Self, DrawError> {
-        let cascades = scene.sea.cascades.len();
+        let stages = SeaStages::of(scene);
+        let cascades = &scene.sea.cascades[..stages.cascades];
         let tree = Quadtree::new(&scene.lod)?;
         let spacing = spacing(&tree);
         let still = Frame::still(scene, sky_map, scene.sea.expected_rms_height(), spacing);
         let limits = &device.physical.limits;
         let uniform_align = limits.min_uniform_buffer_offset_alignment.max(16);
+        let waves = stages.use_waves().then(|| Waves::new(scene));
         // Patches that are seen, and where there are shadows those that cast them.
         let surfaces = if scene.water.shadows.shadows == Shadows::Off { 1 } else { 2 };
-        let share = SeaTextures::bytes(&scene.sea)
+        let share = SeaTextures::bytes(cascades)
             + surfaces * Ocean::instance_bytes(MOST_PATCHES)
             + 2 * Solids::BYTES
-            + size_of::<Frame>() as u64
-            + uniform_align
+            + (size_of::<Frame>() + size_of::<Waves>()) as u64
+            + 2 * uniform_align
             + 1024;
         let ring = UploadRing::new(device, FRAMES_IN_FLIGHT as u64, share)?;
         let bindings = Bindings::new(device, BINDINGS, FRAMES_IN_FLIGHT)?;
         let hidden_area = HiddenArea::new(device, target, &bindings)?;
         let solids = if look.has_solids() { Some(Solids::new(device, target, &bindings)?) } else { None };
         let shadow = Shadow::new(device, target, &bindings, scene, sky_map, look)?;
-        let layers = if shadow.is_some() { Vec::new() } else { look.layers(cascades) };
-        let ocean = Ocean::new(device, target, &bindings, &scene.lod, cascades, &layers)?;
+        let layers = if shadow.is_some() { Vec::new() } else { look.layers(stages) };
+        let ocean = Ocean::new(device, target, &bindings, &scene.lod, stages, &layers)?;
         let sky = if look.has_sky() { Some(Sky::new(device, target, &bindings)?) } else { None };
         let vignette =
             if look.has_vignette() { Some(Vignette::new(device, target, &bindings)?) } else { None };
         let shared = shared_textures(device, sky_map)?;
         let textures = (0..FRAMES_IN_FLIGHT)
-            .map(|_| SeaTextures::new(device, &scene.sea))
+            .map(|_| SeaTextures::new(device, cascades))
             .collect::<Result<Vec<_>, _>>()?;
         for (slot, now) in textures.iter().enumerate() {
             let before = &textures[motion::slot_before(slot)];
             bindings.write(slot, |binding| match binding {
                 0 => Resource::Uniform(ring.buffer(), size_of::<Frame>() as u64),
-                // Shaders for fewer cascades never look at the textures of the others: any image will do there.
-                1..=4 => Resource::Texture(&now.displacement[(binding as usize - 1).min(cascades - 1)]),
-                5..=8 => Resource::Texture(&now.gradient[(binding as usize - 5).min(cascades - 1)]),
+                1..=4 => of_cascade(&now.displacement, binding - 1, &shared.1),
+                5..=8 => of_cascade(&now.gradient, binding - 5, &shared.1),
                 9 => Resource::Texture(&shared.0),
                 10 => Resource::Texture(&shared.1),
                 11 => Resource::Sampler(&shared.2[0]),
                 12 => Resource::Sampler(&shared.2[1]),
                 13 => Resource::Sampler(&shared.2[2]),
+                14..=17 => of_cascade(&before.displacement, binding - 14, &shared.1),
                 // Shaders without shadows never look: any image and any sampler will do there.
                 20 => Resource::Texture(shadow.as_ref().map_or(&shared.1, |shadow| &shadow.map.image)),
                 21 => Resource::Sampler(shadow.as_ref().map_or(&shared.2[1], |shadow| &shadow.sampler)),
-                _ => Resource::Texture(&before.displacement[(binding as usize - 14).min(cascades - 1)]),
+                _ => Resource::Uniform(ring.buffer(), size_of::<Waves>() as u64),
             });
         }
         Ok(Self {
@@ -132,7 +139,8 @@ impl Renderer {
             motion: None,
             shadow,
             latest: None,
-            cascades,
+            stages,
+            waves,
             look,
             tree,
             frusta: Vec::with_capacity(2),
@@ -173,7 +181,11 @@ impl Renderer {
         self.latest = None;
         let before = self.motion.as_ref().and_then(|motion| motion.before(slot));
         self.still.look_back(before.map_or(eyes, |before| before.eyes), origin);
-        let uniforms = self.ring.push(bytemuck::bytes_of(&self.still), self.uniform_align)?;
+        let mut uniforms = [self.ring.push(bytemuck::bytes_of(&self.still), self.uniform_align)?, 0];
+        if let Some(waves) = &mut self.waves {
+            waves.turn(moment.maps, before.map(|before| before.time), origin, self.constant.growth);
+            uniforms[1] = self.ring.push(bytemuck::bytes_of(waves), self.uniform_align)?;
+        }
         self.textures[slot].upload(commands, &mut self.ring, moment.maps)?;
         let instances = Ocean::upload(&mut self.ring, selection)?;
         let casters = self.shadow.as_ref().map(|own| own.upload(&mut self.ring)).transpose()?;
@@ -185,17 +197,17 @@ impl Renderer {
                 solids_before = Some(offset);
             }
         }
-        let uniforms = u32::try_from(uniforms).unwrap_or(u32::MAX);
+        let uniforms = uniforms.map(|offset| u32::try_from(offset).unwrap_or(u32::MAX));
         let looks_back = before.is_some();
         let mut counts = DrawCounts::default();
         if let (Some(shadow), Some(casters)) = (&self.shadow, casters) {
             // A pass of several views forgets what was bound before it: both passes bind.
-            self.bindings.bind(commands, slot, uniforms);
+            self.bindings.bind(commands, slot, &uniforms);
             let floating = (self.solids.as_ref(), &solids);
             counts += shadow.draw(commands, &self.ring, (&self.ocean, casters), floating);
         }
         target.begin(commands, turn, self.look.clear());
-        self.bindings.bind(commands, slot, uniforms);
+        self.bindings.bind(commands, slot, &uniforms);
         counts += self.hidden_area.draw(commands);
         if let Some(own) = &self.solids {
             let lit = self.shadow.as_ref().map_or(own.pipeline(), |shadow| &shadow.solids);
@@ -227,7 +239,7 @@ impl Renderer {
     /// # Errors
     /// Out of memory, or the driver refuses.
     pub fn prepare_motion(&mut self, device: &Arc<Device>, target: &Target) -> Result<(), DrawError> {
-        self.motion = Some(Motion::new(device, target, &self.bindings, self.cascades)?);
+        self.motion = Some(Motion::new(device, target, &self.bindings, self.stages)?);
         self.latest = None;
         Ok(())
     }
@@ -250,7 +262,7 @@ impl Renderer {
         let mut counts = DrawCounts::default();
         target.begin(commands, turn, [0.0; 4]);
         if latest.looks_back {
-            self.bindings.bind(commands, latest.slot, latest.uniforms);
+            self.bindings.bind(commands, latest.slot, &latest.uniforms);
             if let (Some(solids), Some(before)) = (&self.solids, latest.solids_before) {
                 commands.vertex_buffer(2, self.ring.buffer(), before);
                 counts += solids.draw_with(&motion.solids, commands, &self.ring, &latest.solids);
@@ -312,6 +324,11 @@ impl Renderer {
     pub const fn uploaded(&self) -> u64 {
         self.ring.used()
     }
+}
+
+/// The image of a cascade. Shaders for fewer cascades never look at those of the others: `any` will do there.
+fn of_cascade<'a>(images: &'a [Image], cascade: u32, any: &'a Image) -> Resource<'a> {
+    Resource::Texture(images.get(cascade as usize).unwrap_or(any))
 }
 
 /// How far apart the vertices of `tree` are.

@@ -1,7 +1,7 @@
 //! The sea's maps on the GPU: a displacement and a gradient texture for each cascade.
 
 use crate::gpu::{Device, GpuError, Image, ImageInfo, Recorder, Transition, UploadRing};
-use crate::sea::{SeaMaps, SeaSettings};
+use crate::sea::{CascadeSettings, SeaMaps};
 use ash::vk;
 use std::sync::Arc;
 
@@ -20,18 +20,18 @@ pub struct SeaTextures {
 }
 
 impl SeaTextures {
-    /// Empty textures for the maps of `settings`.
+    /// Empty textures for the maps of `cascades`.
     ///
     /// # Errors
     /// Out of device memory.
-    pub fn new(device: &Arc<Device>, settings: &SeaSettings) -> Result<Self, GpuError> {
+    pub fn new(device: &Arc<Device>, cascades: &[CascadeSettings]) -> Result<Self, GpuError> {
         let mut textures = Self {
             displacement: Vec::new(),
             gradient: Vec::new(),
             regions: Vec::with_capacity(16),
-            barriers: Vec::with_capacity(2 * settings.cascades.len()),
+            barriers: Vec::with_capacity(2 * cascades.len()),
         };
-        for (i, cascade) in settings.cascades.iter().enumerate() {
+        for (i, cascade) in cascades.iter().enumerate() {
             let size = u32::try_from(cascade.resolution).unwrap_or(u32::MAX);
             let texture = |format| ImageInfo::texture(size, size.ilog2() + 1, format);
             let halves = texture(vk::Format::R16G16B16A16_SFLOAT);
@@ -43,12 +43,12 @@ impl SeaTextures {
     }
 
     /// Bytes that one frame's maps take in the upload ring.
-    pub fn bytes(settings: &SeaSettings) -> u64 {
+    pub fn bytes(cascades: &[CascadeSettings]) -> u64 {
         let texels = |n: usize| (4 * n * n - 1) as u64 / 3;
-        settings.cascades.iter().map(|c| texels(c.resolution) * (DISPLACEMENT + GRADIENT) + 32).sum()
+        cascades.iter().map(|c| texels(c.resolution) * (DISPLACEMENT + GRADIENT) + 32).sum()
     }
 
-    /// Records the upload of `maps` through `ring`, outside a pass.
+    /// Records the upload of `maps` through `ring`, outside a pass; of those that there are textures for.
     ///
     /// # Errors
     /// The ring is too small for maps of another size.
@@ -58,6 +58,9 @@ impl SeaTextures {
         ring: &mut UploadRing,
         maps: &SeaMaps,
     ) -> Result<(), GpuError> {
+        if self.displacement.is_empty() {
+            return Ok(());
+        }
         commands.begin_label(c"sea maps");
         let images = || self.displacement.iter().chain(&self.gradient);
         Transition::FILL.record(commands, images(), &mut self.barriers);

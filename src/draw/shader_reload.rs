@@ -1,6 +1,6 @@
 //! Shaders compiled anew from their folder while Swell runs, each in place of the one that was built in.
 
-use super::shaders::{BINDINGS, MODULES, UNIFORM_SIZE};
+use super::shaders::{BINDINGS, MODULES, UNIFORM_SIZES};
 use super::wgsl::{self, Reflection};
 use crate::gpu::{BindingKind, Replacements};
 use std::collections::HashMap;
@@ -14,22 +14,22 @@ pub fn compile_shaders(folder: &Path) -> Result<Replacements, String> {
     let mut reflection = Reflection::default();
     let mut entries = HashMap::new();
     for file in wgsl::files(folder)? {
-        let stem = file.file_stem().unwrap_or_default().to_string_lossy().into_owned();
         for entry in wgsl::compile(&file, &mut reflection)? {
-            entries.insert(format!("{stem}.{}", entry.name), entry.variants);
+            entries.insert(format!("{}.{}", entry.stem, entry.name), entry);
         }
     }
     check(folder, &reflection)?;
     let mut replacements = Replacements::new();
     for &(name, cascades, built_in) in MODULES {
-        let variants = entries.get(name).ok_or_else(|| format!("{}: {name} is gone", folder.display()))?;
+        let entry = entries.get(name).ok_or_else(|| format!("{}: {name} is gone", folder.display()))?;
+        let (first, variants) = (entry.first, &entry.variants);
         let built = MODULES.iter().filter(|(other, ..)| *other == name).count();
         if variants.len() > built {
             let wants = "looks at the number of cascades, which it did not: this wants a build";
             return Err(format!("{}: {name} {wants}", folder.display()));
         }
         // One that does not look at that number any more is the same for each.
-        let index = (cascades as usize).min(variants.len()) - 1;
+        let index = (cascades.saturating_sub(first) as usize).min(variants.len() - 1);
         if let Some(variant) = variants.get(index) {
             replacements.insert(built_in, variant.bytes());
         }
@@ -39,8 +39,11 @@ pub fn compile_shaders(folder: &Path) -> Result<Replacements, String> {
 
 /// Layouts and the uniform block are Rust's: shaders that want others want a build.
 fn check(folder: &Path, reflection: &Reflection) -> Result<(), String> {
-    if reflection.uniform_size as usize != UNIFORM_SIZE {
-        return Err(format!("{}: the uniform block has another size: this wants a build", folder.display()));
+    for (name, size) in UNIFORM_SIZES {
+        if reflection.uniform_sizes.get(*name) != Some(size) {
+            let block = format!("the uniform block {} has another size", name.to_lowercase());
+            return Err(format!("{}: {block}: this wants a build", folder.display()));
+        }
     }
     let known = |number: u32, kind: &str| {
         BINDINGS.iter().any(|&(own, own_kind)| {

@@ -6,6 +6,7 @@ use super::debug_view::Look;
 use super::error::DrawError;
 use super::moment::Moment;
 use super::ocean::{self, Layer, Ocean};
+use super::sea_stages::SeaStages;
 use super::shaders as s;
 use super::sky_map::SkyMap;
 use super::solids::{self, Solids, Uploaded};
@@ -59,16 +60,16 @@ impl Shadow {
         if settings.shadows == Shadows::Off || !look.has_solids() || sky.sun_light == Vec3::ZERO {
             return Ok(None);
         }
-        let n = scene.sea.cascades.len() - 1;
+        let stages = SeaStages::of(scene);
         let map = DepthMap::new(device, "sun's map", settings.resolution)?;
         let cast = |name, vertex, input| {
             let info = DepthInfo { name, vertex, input, lowered: LOWERED };
             Pipeline::depth_only(device, &map, bindings.pipeline_layout, &info)
         };
-        let lit = Layer { fragment: s::SHADOWED_WATER_MAIN[n], entry: c"water_main", lines: false };
-        let beyond = Layer { fragment: s::OCEAN_FRAGMENT_MAIN[n], entry: c"fragment_main", lines: false };
-        let patches = (s::SHADOWED_PATCH_MAIN[n], c"patch_main");
-        let skirt = (s::SKIRT_VERTEX_MAIN[n], c"vertex_main");
+        let lit = Layer { fragment: stages.shadowed_water(), entry: c"water_main", lines: false };
+        let beyond = Layer { fragment: stages.water(), entry: c"fragment_main", lines: false };
+        let patches = (stages.shadowed_patch(), c"patch_main");
+        let skirt = (stages.skirt(), c"vertex_main");
         let solids = PipelineInfo {
             name: "solids in shadow",
             vertex: (s::SHADOWED_SOLID_MAIN, c"solid_main"),
@@ -88,7 +89,7 @@ impl Shadow {
             sampler: Sampler::comparing(device, "sun's map")?,
             cast_patches: cast(
                 "patches' shadows",
-                (s::SUN_MAP_PATCH_MAIN[n], c"patch_main"),
+                (stages.sun_map_patch(), c"patch_main"),
                 ocean::PATCH_INPUT,
             )?,
             cast_solids: cast("solids' shadows", (s::SUN_MAP_SOLID_MAIN, c"solid_main"), solids::INPUT)?,

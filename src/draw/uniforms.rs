@@ -2,11 +2,11 @@
 
 use super::camera::{self, Eye};
 use super::moment::Moment;
-use super::shaders::UNIFORM_SIZE;
+use super::shaders::FRAME_SIZE;
 use super::sky_map::{self, SkyMap};
 use super::vignette;
 use crate::scene::Scene;
-use crate::sea::settings::MAX_CASCADES;
+use crate::sea::{SeaSettings, settings::MAX_CASCADES};
 use bytemuck::{Pod, Zeroable};
 use glam::{DVec2, DVec3, Mat4, Vec3, Vec4};
 use std::f32::consts::PI;
@@ -67,14 +67,14 @@ pub struct Frame {
     sun_map: SunMap,
 }
 
-const _: () = assert!(size_of::<Frame>() == UNIFORM_SIZE, "Frame and shaders/frame.wgsl differ");
+const _: () = assert!(size_of::<Frame>() == FRAME_SIZE, "Frame and shaders/frame.wgsl differ");
 
 /// Radius of the sun's disc, radians.
 const SUN_RADIUS: f32 = 0.004_65;
 /// With 0 stops of exposure a white wall in full sun (about 35 kcd/m^2) is a bright white, and a clear sky keeps its blue.
 const EXPOSURE: f64 = 0.03;
 /// Metres, at most, across which the foam's pattern repeats.
-const FOAM_REPEAT: f64 = 11.0;
+pub(super) const FOAM_REPEAT: f64 = 11.0;
 /// Narkowicz's constants, divided out: the linear term above the line, then the square's and the linear one's below.
 const TONE: Vec4 = Vec4::new(0.03 - 2.51 * 0.59 / 2.43, 2.43, 0.59, 0.0);
 /// Share of the quadtree's half side, from 0.7 to 0.98 of it, over which waves fade: see `lod::border_fade`.
@@ -102,6 +102,13 @@ pub struct Constant {
     pub detail: f64,
 }
 
+/// By how much the squared roughness summed over cascades is more than the water's own: every cascade's map holds it, and the
+/// surface has it once.
+pub(super) fn repeated_roughness(sea: &SeaSettings) -> f64 {
+    let own = sea.cascades.iter().map(|cascade| cascade.roughness.powi(2));
+    own.clone().sum::<f64>() - own.fold(0.0, f64::max)
+}
+
 impl Frame {
     /// All that stays as it is from frame to frame.
     #[expect(clippy::cast_possible_truncation, reason = "scene values, far inside f32")]
@@ -109,9 +116,7 @@ impl Frame {
         let (water, foam) = (&scene.water, &scene.sea.foam);
         let (height, width) = (rms_height.max(0.01), foam.width.max(1e-3));
         let exposure = (EXPOSURE * scene.sky.exposure.exp2()) as f32;
-        // Every cascade's map holds the water's own roughness; the surface has it once.
-        let own = scene.sea.cascades.iter().map(|cascade| cascade.roughness.powi(2));
-        let repeated = own.clone().sum::<f64>() - own.fold(0.0, f64::max);
+        let repeated = repeated_roughness(&scene.sea);
         // The disc's radiance is far beyond white: limited, so that resolving samples leaves its edge round.
         let disc = (1.0 / (PI * SUN_RADIUS * SUN_RADIUS)).min(60.0);
         let texels_per_radian = sky_map::FACE as f32 / std::f32::consts::FRAC_PI_2;

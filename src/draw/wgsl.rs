@@ -3,19 +3,42 @@
 //! - `#include "file.wgsl"` on a line of its own takes in another file, once; errors still name the file they are in.
 //! - A shader with `override CASCADES` is compiled once for each number of cascades: naga resolves overrides before it
 //!   writes, as SPIR-V gets no specialisation constants from it.
+//! - A shader is compiled anew for each of [`FLAVOURS`], where other files take the place of some that it includes.
 //! - Each module holds one entry point, because Adreno's compilers have failed on several.
 //! - How often each variant looks into a texture is counted, for docs/frame-cost.md and its test.
 
 use naga::back::{pipeline_constants::process_overrides, spv};
 use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
 use naga::{AddressSpace, Block, Expression, Function, Literal, Module, Statement, TypeInner};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
 use std::fs;
 use std::path::{Path, PathBuf};
 
 /// As `sea::MAX_CASCADES`.
 pub const MAX_CASCADES: u32 = 4;
+
+/// A kind of sea or of shading: files that are included in the place of others.
+struct Flavour {
+    /// Before the names of what comes out.
+    prefix: &'static str,
+    /// What is included, and what instead. Shaders that include none of the former come without this flavour.
+    instead: &'static [(&'static str, &'static str)],
+    /// Fewest cascades that it is compiled for, where they matter.
+    fewest: u32,
+}
+
+/// The first is the plain one.
+const FLAVOURS: [Flavour; 4] = [
+    Flavour { prefix: "", instead: &[], fewest: 1 },
+    Flavour { prefix: "analytic_", instead: &[("waves.wgsl", "analytic.wgsl")], fewest: 0 },
+    Flavour { prefix: "phong_", instead: &[("water.wgsl", "blinn_phong.wgsl")], fewest: 1 },
+    Flavour {
+        prefix: "analytic_phong_",
+        instead: &[("waves.wgsl", "analytic.wgsl"), ("water.wgsl", "blinn_phong.wgsl")],
+        fewest: 0,
+    },
+];
 
 /// What is wrong, with file, line and column where they are known.
 pub type Failure = String;
@@ -34,23 +57,44 @@ pub fn files(folder: &Path) -> Result<Vec<PathBuf>, Failure> {
     Ok(files)
 }
 
-/// One entry point of a file.
+/// One entry point of a file, in one flavour.
 pub struct Entry {
+    /// The file's name without its ending, after the flavour's prefix.
+    pub stem: String,
     /// Its name.
     pub name: String,
-    /// For each number of cascades from 1, or one where they make no difference.
+    /// The number of cascades that the first variant is for.
+    pub first: u32,
+    /// For each number of cascades from `first`, or one where they make no difference.
     pub variants: Vec<Variant>,
 }
 
-/// Compiles every entry point of `file`, none where it has none, and tells `reflection` what it declares.
+/// Compiles every entry point of `file` in every flavour, none where it has none, and tells `reflection` what it declares.
 ///
 /// # Errors
 /// The file cannot be read, or naga refuses it.
 pub fn compile(file: &Path, reflection: &mut Reflection) -> Result<Vec<Entry>, Failure> {
-    let source = Source::read(file)?;
-    if !source.text.contains("@vertex") && !source.text.contains("@fragment") {
+    let plain = Source::read(file, &[])?;
+    if !plain.text.contains("@vertex") && !plain.text.contains("@fragment") {
         return Ok(Vec::new());
     }
+    let mut entries = Vec::new();
+    for flavour in &FLAVOURS {
+        if flavour.instead.iter().all(|(name, _)| plain.seen.iter().any(|seen| seen.ends_with(name))) {
+            let source = Source::read(file, flavour.instead)?;
+            compile_flavour(&source, file, flavour, reflection, &mut entries)?;
+        }
+    }
+    Ok(entries)
+}
+
+fn compile_flavour(
+    source: &Source,
+    file: &Path,
+    flavour: &Flavour,
+    reflection: &mut Reflection,
+    entries: &mut Vec<Entry>,
+) -> Result<(), Failure> {
     let module = naga::front::wgsl::parse_str(&source.text)
         .map_err(|error| source.error(error.location(&source.text), &describe(&error)))?;
     let capabilities = Capabilities::MULTIVIEW;
@@ -58,19 +102,26 @@ pub fn compile(file: &Path, reflection: &mut Reflection) -> Result<Vec<Entry>, F
         .validate(&module)
         .map_err(|error| source.error(error.location(&source.text), &describe(error.as_inner())))?;
     reflection.add(&module).map_err(|message| source.error(None, &message))?;
+    let stem = format!("{}{}", flavour.prefix, file.file_stem().unwrap_or_default().to_string_lossy());
     let varies = module.overrides.iter().any(|(_, o)| o.name.as_deref() == Some("CASCADES"));
-    let mut entries = Vec::new();
     for entry in &module.entry_points {
+        // Stages to which the flavour makes no difference are the plain one's.
+        let mut reached = BTreeSet::new();
+        source.reach(&module, &entry.function.body, &mut reached);
+        if !flavour.instead.iter().all(|(_, name)| reached.iter().any(|file| file.ends_with(name))) {
+            continue;
+        }
+        let first = if varies { flavour.fewest } else { 1 };
         let mut variants = Vec::new();
-        for cascades in 1..=if varies { MAX_CASCADES } else { 1 } {
+        for cascades in first..=if varies { MAX_CASCADES } else { 1 } {
             let variant = Variant::write(&module, &info, entry, varies.then_some(cascades));
             variants.push(variant.map_err(|message| source.error(None, &message))?);
         }
         // The stages that do not look at CASCADES come out the same each time: one of them will do.
         variants.dedup();
-        entries.push(Entry { name: entry.name.clone(), variants });
+        entries.push(Entry { stem: stem.clone(), name: entry.name.clone(), first, variants });
     }
-    Ok(entries)
+    Ok(())
 }
 
 /// A shader's text with its includes, and where each line came from.
@@ -82,13 +133,13 @@ struct Source {
 }
 
 impl Source {
-    fn read(file: &Path) -> Result<Self, Failure> {
+    fn read(file: &Path, instead: &[(&str, &str)]) -> Result<Self, Failure> {
         let mut source = Self::default();
-        source.add(file)?;
+        source.add(file, instead)?;
         Ok(source)
     }
 
-    fn add(&mut self, file: &Path) -> Result<(), Failure> {
+    fn add(&mut self, file: &Path, instead: &[(&str, &str)]) -> Result<(), Failure> {
         if self.seen.iter().any(|seen| seen == file) {
             return Ok(());
         }
@@ -97,8 +148,10 @@ impl Source {
         for (index, line) in text.lines().enumerate() {
             match line.trim().strip_prefix("#include ") {
                 Some(name) => {
+                    let name = name.trim().trim_matches('"');
+                    let name = instead.iter().find(|(from, _)| *from == name).map_or(name, |(_, to)| *to);
                     let folder = file.parent().unwrap_or(Path::new(""));
-                    self.add(&folder.join(name.trim().trim_matches('"')))?;
+                    self.add(&folder.join(name), instead)?;
                 }
                 None => {
                     self.text.push_str(line);
@@ -108,6 +161,32 @@ impl Source {
             }
         }
         Ok(())
+    }
+
+    /// The files whose functions `block` calls, and those that they call.
+    fn reach(&self, module: &Module, block: &Block, files: &mut BTreeSet<PathBuf>) {
+        for statement in block {
+            match statement {
+                Statement::Call { function, .. } => {
+                    let line = module.functions.get_span(*function).location(&self.text).line_number as usize;
+                    files.extend(self.lines.get(line - 1).map(|(file, _)| file.clone()));
+                    self.reach(module, &module.functions[*function].body, files);
+                }
+                Statement::Block(block) => self.reach(module, block, files),
+                Statement::If { accept, reject, .. } => {
+                    self.reach(module, accept, files);
+                    self.reach(module, reject, files);
+                }
+                Statement::Switch { cases, .. } => {
+                    cases.iter().for_each(|case| self.reach(module, &case.body, files));
+                }
+                Statement::Loop { body, continuing, .. } => {
+                    self.reach(module, body, files);
+                    self.reach(module, continuing, files);
+                }
+                _ => {}
+            }
+        }
     }
 
     /// "shaders/ocean.wgsl:12:5: message", from a place in the joined text.
@@ -215,8 +294,8 @@ fn fetches(module: &Module, function: &Function, block: &Block) -> u32 {
 pub struct Reflection {
     /// Kinds by number.
     pub bindings: BTreeMap<u32, &'static str>,
-    /// Bytes of the uniform block.
-    pub uniform_size: u32,
+    /// Bytes of each uniform block, by its name in capitals.
+    pub uniform_sizes: BTreeMap<String, u32>,
 }
 
 impl Reflection {
@@ -230,7 +309,7 @@ impl Reflection {
             let inner = &module.types[variable.ty].inner;
             let kind = match (variable.space, inner) {
                 (AddressSpace::Uniform, TypeInner::Struct { span, .. }) => {
-                    self.uniform_size = *span;
+                    self.uniform_sizes.insert(name.to_uppercase(), *span);
                     "Uniform"
                 }
                 (_, TypeInner::Image { .. }) => "Texture",

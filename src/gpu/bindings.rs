@@ -136,10 +136,8 @@ impl Bindings {
         }
     }
 
-    /// Binds set `index` with its uniform block, where it has one, at `offset`.
-    pub fn bind(&self, commands: Recorder<'_>, index: usize, offset: u32) {
-        let has_block = self.kinds.iter().any(|(_, kind)| *kind == BindingKind::Uniform);
-        let offsets: &[u32] = if has_block { &[offset] } else { &[] };
+    /// Binds set `index` with its uniform blocks at `offsets`, one for each, by the numbers of their bindings.
+    pub fn bind(&self, commands: Recorder<'_>, index: usize, offsets: &[u32]) {
         // SAFETY: `commands` is recording; the set is whole, with as many dynamic offsets as it has uniform blocks.
         unsafe {
             self.device.raw.cmd_bind_descriptor_sets(

@@ -1,5 +1,5 @@
 //! Sections of a scene while they are being read: the settings they end as, and the few keys that need each other.
-use super::{CameraSettings, ShadowSettings, WaterSettings};
+use super::{CameraSettings, Mirrored, PhongSettings, Shading, ShadowSettings, WaterSettings};
 use crate::lod::{LodSettings, Quality, SignalSettings, Tessellation};
 use crate::raft::{BuoySettings, Horizon, RaftSettings};
 use crate::sea::waves::{FbmFoam, FbmSettings, Kernel, Lean};
@@ -257,6 +257,15 @@ impl Blank for WaterSettings {
         foam_color: [0.0; 3],
         detail: 0.0,
         shadows: ShadowSettings::BLANK,
+        shading: Shading::Physical,
+        phong: PhongSettings {
+            shininess: 0.0,
+            highlight: 0.0,
+            mirrored: Mirrored::Cubemap,
+            ambient_color: [0.0; 3],
+            sun_size: 0.0,
+            sun_falloff: 0.0,
+        },
     };
 }
 

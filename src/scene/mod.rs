@@ -175,6 +175,45 @@ pub struct WaterSettings {
     pub detail: f64,
     /// Shadows that the sun casts.
     pub shadows: ShadowSettings,
+    /// How light becomes a colour.
+    pub shading: Shading,
+    /// With [`Shading::BlinnPhong`].
+    pub phong: PhongSettings,
+}
+
+/// How light becomes a colour.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Shading {
+    /// Facets of a rough surface mirror sky and sun, and let light out from below.
+    Physical,
+    /// A deep colour, a mirror after Schlick, and a highlight after Blinn and Phong.
+    BlinnPhong,
+}
+
+/// What is mirrored where the sun is not.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Mirrored {
+    /// The sky, in every direction its own light.
+    Cubemap,
+    /// One colour.
+    Ambient,
+}
+
+/// Numbers of [`Shading::BlinnPhong`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PhongSettings {
+    /// Exponent of the highlight.
+    pub shininess: f64,
+    /// Its strength: 1 is as bright as a white wall in the sun.
+    pub highlight: f64,
+    /// What is mirrored.
+    pub mirrored: Mirrored,
+    /// Colour that is mirrored, linear Rec. 709, over that of a white wall under the sky.
+    pub ambient_color: [f32; 3],
+    /// Size of the mirrored sun with its halo: 1 less the cosine of its radius.
+    pub sun_size: f64,
+    /// Exponent by which it falls off towards its rim.
+    pub sun_falloff: f64,
 }
 
 /// A pinhole camera.

@@ -1,16 +1,18 @@
 //! Every key of a scene file. Reading, checking, defaults and `docs/scene.md` all come from these tables.
+use super::CameraSettings;
 use super::draft::{CascadeDraft, LodDraft, SkyDraft, SkyModel};
-use super::key::{Absent, Key, Kind, angle, color, number, optional, position, power_of_two, word};
-use super::{CameraSettings, Shadows, WaterSettings};
+use super::key::{Absent, Key, Kind, angle, number, optional, position, power_of_two, word};
 use crate::lod::Quality;
 use crate::sea::{FoamSettings, NormalKind, SeaSettings, Spectrum};
 
 mod lod_signal;
 mod raft;
+mod water;
 mod waves;
 
 pub(super) use lod_signal::LOD_SIGNAL;
 pub(super) use raft::{BUOY, RAFT};
+pub(super) use water::WATER;
 pub(super) use waves::{ANY_SEA, FBM, FBM_FOAM, LAYER, STILL_WATER, WAVE};
 
 /// Keys of `[sea]` with model "fft" that hold for the sea as a whole.
@@ -314,65 +316,6 @@ pub(super) static SKY: &[Key<SkyDraft>] = &[
         30_000.0,
         |s, v| s.visibility = v,
         "Distance at which haze leaves 2 % of the contrast.",
-    ),
-];
-
-/// Keys of `[water]`.
-pub(super) static WATER: &[Key<WaterSettings>] = &[
-    color(
-        "deep_color",
-        [0.002, 0.014, 0.026],
-        |w, v| w.deep_color = v.map(|c| c as f32),
-        "Diffuse reflectance of deep water seen from straight above, linear Rec. 709.",
-    ),
-    color(
-        "scatter_color",
-        [0.01, 0.11, 0.1],
-        |w, v| w.scatter_color = v.map(|c| c as f32),
-        "Colour of light that came through a crest, linear Rec. 709.",
-    ),
-    number("scatter", "", [0.0, 10.0], 1.0, |w, v| w.scatter = v, "Strength of that light."),
-    color(
-        "foam_color",
-        [0.8, 0.83, 0.85],
-        |w, v| w.foam_color = v.map(|c| c as f32),
-        "Albedo of foam, linear Rec. 709.",
-    ),
-    number(
-        "detail",
-        "",
-        [0.0, 4.0],
-        1.0,
-        |w, v| w.detail = v,
-        "Factor on the slopes used for shading; 1 is physical.",
-    ),
-    word(
-        "shadows",
-        "off",
-        &[
-            ("off", |w| w.shadows.shadows = Shadows::Off),
-            ("screen", |w| w.shadows.shadows = Shadows::Screen),
-            ("on", |w| w.shadows.shadows = Shadows::On),
-        ],
-        "Shadows that the waves and what floats on them cast on each other; `screen` is everywhere but in headsets.",
-    ),
-    Key {
-        unit: "texels",
-        ..power_of_two(
-            "shadow_resolution",
-            [256, 4096],
-            2048,
-            |w, v| w.shadows.resolution = v as u32,
-            "Side of the map the sun's shadows are looked up in.",
-        )
-    },
-    number(
-        "shadow_distance",
-        "m",
-        [10.0, 2000.0],
-        200.0,
-        |w, v| w.shadows.distance = v,
-        "Distance from the viewer at which shadows have faded; nearer ones are the sharper the less it is.",
     ),
 ];
 

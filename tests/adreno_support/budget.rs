@@ -2,8 +2,10 @@
 use super::{Chip, Cost};
 use serde::Deserialize;
 use std::collections::BTreeMap;
+use swell::sea::settings::MAX_CASCADES;
 
-/// Most instructions, for 1, 2, 3 and 4 cascades, or one number where cascades do not matter.
+/// Most instructions, for 1, 2, 3 and 4 cascades, with a number for none before them where there may be none; or one number
+/// where cascades do not matter.
 type Instructions = BTreeMap<String, Vec<i64>>;
 
 #[derive(Deserialize)]
@@ -15,6 +17,8 @@ pub struct Budgets {
     pub waves: BTreeMap<String, BTreeMap<String, i64>>,
     /// The same for pipelines that need more registers, by their vertex shader: for what no headset draws by default.
     pub waves_of: BTreeMap<String, BTreeMap<String, BTreeMap<String, i64>>>,
+    /// The same of pipelines for formulas.
+    pub waves_of_formulas: BTreeMap<String, BTreeMap<String, i64>>,
     /// By the pipeline's vertex shader, the stage, and the chip.
     pub instructions: BTreeMap<String, BTreeMap<String, Instructions>>,
 }
@@ -35,7 +39,10 @@ impl Budgets {
             chip.name, self.mesa
         );
         let most = self.instructions.get(pipeline).and_then(|stages| stages.get(stage)?.get(chip.name));
-        let most = most.and_then(|most| most.get(cascades - 1).or(most.last()));
+        let most = most.and_then(|most| {
+            let fewest = usize::from(most.len() <= MAX_CASCADES);
+            most.get(cascades.saturating_sub(fewest)).or(most.last())
+        });
         let mut faults = Vec::new();
         match most {
             None => faults.push(format!("{what}: no limit for its {} instructions", cost.instructions)),
@@ -44,7 +51,8 @@ impl Budgets {
             }
             Some(_) => {}
         }
-        let waves = self.waves_of.get(pipeline).unwrap_or(&self.waves);
+        let formulas = if pipeline.contains("analytic_") { &self.waves_of_formulas } else { &self.waves };
+        let waves = self.waves_of.get(pipeline).unwrap_or(formulas);
         let least = waves.get(chip.name).and_then(|least| least.get(&cost.width.to_string()));
         match least {
             None => faults.push(format!("{what}: no limit for waves of {} threads", cost.width)),

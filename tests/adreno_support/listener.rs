@@ -141,8 +141,9 @@ unsafe extern "system" fn create_pipelines(
         if result == vk::Result::SUCCESS {
             for (index, info) in infos.iter().enumerate() {
                 let stages = std::slice::from_raw_parts(info.p_stages, info.stage_count as usize);
-                let vertex = stages.iter().find(|stage| stage.stage == vk::ShaderStageFlags::VERTEX).unwrap();
-                write_down(*made.add(index), vertex.module);
+                let module = |flag| stages.iter().find(|stage| stage.stage == flag).unwrap().module;
+                let both = [vk::ShaderStageFlags::VERTEX, vk::ShaderStageFlags::FRAGMENT].map(module);
+                write_down(*made.add(index), both);
             }
         }
         result
@@ -150,9 +151,14 @@ unsafe extern "system" fn create_pipelines(
 }
 
 /// # Safety
-/// `pipeline` was made to keep its statistics, its vertex stage from `vertex`.
-unsafe fn write_down(pipeline: vk::Pipeline, vertex: vk::ShaderModule) {
-    let place = LIVE.lock().unwrap().iter().find(|&&(module, _)| module == vertex).unwrap().1;
+/// `pipeline` was made to keep its statistics, its stages from `modules`: vertex and fragment.
+unsafe fn write_down(pipeline: vk::Pipeline, modules: [vk::ShaderModule; 2]) {
+    let [vertex, fragment] = modules.map(|wanted| {
+        let place = LIVE.lock().unwrap().iter().find(|&&(module, _)| module == wanted).unwrap().1;
+        MODULES[place].0
+    });
+    // Blinn-Phong has no vertex stages of its own.
+    let shading = if fragment.contains("phong_") { "phong_" } else { "" };
     let statistics = STATISTICS.get().unwrap();
     let info = vk::PipelineInfoKHR::default().pipeline(pipeline);
     // SAFETY: the caller's promise.
@@ -175,7 +181,7 @@ unsafe fn write_down(pipeline: vk::Pipeline, vertex: vk::ShaderModule) {
                 .unwrap_or_else(|| panic!("the driver tells no '{name}'"))
         };
         COSTS.lock().unwrap().push(Cost {
-            pipeline: MODULES[place].0.to_owned(),
+            pipeline: format!("{shading}{vertex}"),
             cascades: 0,
             stage: stage.to_owned(),
             instructions: value("Instruction Count"),

@@ -23,7 +23,8 @@ pub const CHIPS: [Chip; 2] = [
 /// What one stage of a pipeline was compiled to.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Cost {
-    /// The vertex stage's shader, by which a pipeline is known.
+    /// The vertex stage's shader, by which a pipeline is known; before it the way the fragment stage shades, where that is not the
+    /// usual one.
     pub pipeline: String,
     /// Cascades that it was compiled for.
     pub cascades: usize,

@@ -45,7 +45,7 @@ pub fn cases(selection: &Selection) -> Result<Option<Case>, BenchError> {
     let mut sea = Sea::new(&settings)?;
     let mut maps = sea.new_maps();
     sea.step(10.0, &mut maps)?;
-    let bytes = SeaTextures::bytes(&settings);
+    let bytes = SeaTextures::bytes(&settings.cascades);
     let body = match recording(selection.device.as_deref(), bytes, sea.settings(), maps) {
         Err(reason) if selection.device.is_none() => {
             eprintln!("upload is left out: {reason}");
@@ -73,7 +73,7 @@ fn recording(
             .map(|_| Commands::new(&device, "upload"))
             .collect::<Result<_, _>>()?,
         textures: (0..FRAMES_IN_FLIGHT)
-            .map(|_| SeaTextures::new(&device, settings))
+            .map(|_| SeaTextures::new(&device, &settings.cascades))
             .collect::<Result<_, _>>()?,
         ring: UploadRing::new(&device, FRAMES_IN_FLIGHT as u64, bytes)?,
         maps,
