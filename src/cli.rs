@@ -246,10 +246,14 @@ impl Arguments {
 
 impl SceneFile {
     fn load(self) -> Result<Scene, CommandError> {
-        Ok(match self.scene {
+        let scene = match self.scene {
             Some(file) => Scene::load(file)?,
             None => Scene::flagship()?,
-        })
+        };
+        for warning in &scene.warnings {
+            eprintln!("warning: {warning}");
+        }
+        Ok(scene)
     }
 }
 

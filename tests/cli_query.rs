@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 mod support;
 
+use std::f64::consts::TAU;
 use support::program::{run, swell_alone};
 use support::random::Random;
 
@@ -37,5 +38,26 @@ fn a_thousand_points_give_a_thousand_lines_in_order() {
         for key in ["height", "foam"] {
             assert!(line[key].as_f64().unwrap().is_finite(), "{line}");
         }
+    }
+}
+
+#[test]
+fn a_scene_of_formulas_gives_their_numbers_and_its_warnings() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = folder.path().join("steep.toml");
+    let wave = "[[sea.wave]]\nkind = 'gerstner'\nwavelength = 12\nsteepness = 0.75\n";
+    std::fs::write(&scene, format!("[sea]\nmodel = 'waves'\n{wave}{wave}")).unwrap();
+    let said = run(swell_alone().args(["query", "--time", "2", "--rest", "3,4", "--scene"]).arg(&scene));
+    assert_eq!(said.status, Some(0));
+    let warned = format!(
+        "warning: {}:3:1: the steepness of sea.wave 1 (0.75), sea.wave 2 (0.75) sums to 1.5",
+        scene.display()
+    );
+    assert!(said.err.starts_with(&warned) && said.err.lines().count() == 1, "{}", said.err);
+    let answer: serde_json::Value = serde_json::from_str(&said.out).unwrap();
+    let k = TAU / 12.0;
+    let f = k * (3.0 - (9.81 / k).sqrt() * 2.0);
+    for (i, wanted) in [1.5 / k * f.cos(), 1.5 / k * f.sin(), 0.0].into_iter().enumerate() {
+        assert!((answer["displacement"][i].as_f64().unwrap() - wanted).abs() < 1e-9, "{answer}");
     }
 }

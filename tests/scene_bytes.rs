@@ -4,10 +4,13 @@ use proptest::prelude::*;
 use proptest::sample::Index;
 use swell::scene::{Scene, SceneError};
 
-const SCENES: [&str; 3] = [
+const SCENES: [&str; 6] = [
     include_str!("../scenes/open_ocean.toml"),
     include_str!("../scenes/calm.toml"),
     include_str!("../scenes/storm.toml"),
+    include_str!("../scenes/gerstner.toml"),
+    include_str!("../scenes/pond.toml"),
+    include_str!("../scenes/fbm_sea.toml"),
 ];
 
 /// Pieces that are likely to hurt where they do not belong.
@@ -57,6 +60,8 @@ fn check(bytes: &[u8]) {
             assert!(numbers.chain(scene.camera.eye).chain(scene.camera.look).all(f64::is_finite));
             assert!(scene.camera.eye != scene.camera.look);
             assert!((1..=4).contains(&scene.sea.cascades.len()));
+            assert!(swell::sea::waves::validate(&scene.sea.models).is_ok());
+            assert!(scene.lod.reach.is_finite() && scene.lod.max_height.is_some_and(f64::is_finite));
             assert!(scene.raft.check().is_ok() && scene.buoys.len() <= 64);
             assert!(scene.buoys.iter().all(|buoy| buoy.at.iter().all(|at| at.is_finite())));
         }
@@ -92,7 +97,7 @@ proptest! {
     }
 
     #[test]
-    fn changed_bytes(scene in 0..3usize, changes in proptest::collection::vec((any::<Index>(), any::<u8>()), 1..8)) {
+    fn changed_bytes(scene in 0..SCENES.len(), changes in proptest::collection::vec((any::<Index>(), any::<u8>()), 1..8)) {
         let mut bytes = SCENES[scene].as_bytes().to_vec();
         for (at, byte) in changes {
             let at = at.index(bytes.len());
@@ -102,7 +107,7 @@ proptest! {
     }
 
     #[test]
-    fn cut_and_doubled(scene in 0..3usize, from in any::<Index>(), to in any::<Index>(), at in any::<Index>()) {
+    fn cut_and_doubled(scene in 0..SCENES.len(), from in any::<Index>(), to in any::<Index>(), at in any::<Index>()) {
         let text = SCENES[scene].as_bytes();
         let (from, to) = (from.index(text.len()), to.index(text.len()));
         let piece = &text[from.min(to)..from.max(to)];
@@ -113,7 +118,7 @@ proptest! {
 
     #[test]
     fn spliced_tokens(
-        scene in 0..3usize,
+        scene in 0..SCENES.len(),
         splices in proptest::collection::vec((any::<Index>(), 0..TOKENS.len(), any::<bool>()), 1..6),
     ) {
         let mut words: Vec<&str> = SCENES[scene].split_inclusive([' ', '\n']).collect();

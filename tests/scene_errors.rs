@@ -119,7 +119,10 @@ fn unknown_words_list_the_words_there_are() {
         "[raft]\nhorizon = \"held\"\n",
         "x.toml:2:11: raft.horizon = \"held\" is not one of: \"rides\", \"still\"",
     );
-    check("[sea]\nmodel = \"waves\"\n", "x.toml:2:9: sea.model = \"waves\" is not one of: \"fft\"");
+    check(
+        "[sea]\nmodel = \"sines\"\n",
+        "x.toml:2:9: sea.model = \"sines\" is not one of: \"fft\", \"waves\", \"fbm\"",
+    );
 }
 
 #[test]
@@ -135,7 +138,7 @@ fn unknown_keys_suggest_the_one_meant() {
     check("[sae]\nwind_speed = 3\n", "x.toml:1:2: sae is not a key of a scene; did you mean sea?");
     check(
         "wind_speed = 3\n",
-        "x.toml:1:1: wind_speed is not a key of a scene; wind_speed belongs under [sea]",
+        "x.toml:1:1: wind_speed is not a key of a scene; wind_speed belongs under [sea] with model = \"fft\"",
     );
     check(
         "[sea.foam]\nexplosions = 3\n",

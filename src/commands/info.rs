@@ -172,17 +172,5 @@ fn write_text(report: &Report<'_>, out: &mut impl Write) -> io::Result<()> {
         }
     }
     write_openxr(&report.openxr, out)?;
-    let scene = report.scene;
-    writeln!(out, "scene: waves of {:.2} m (significant height)", scene.significant_wave_height)?;
-    for cascade in &scene.cascades {
-        writeln!(
-            out,
-            "    patch of {} m, {} points a side: wavelengths {:.3} to {:.1} m",
-            cascade.patch_size,
-            cascade.resolution,
-            std::f64::consts::TAU / cascade.to,
-            std::f64::consts::TAU / cascade.from.max(std::f64::consts::TAU / cascade.patch_size)
-        )?;
-    }
-    Ok(())
+    report.scene.write_text(out)
 }

@@ -87,7 +87,7 @@ impl CommandError {
     /// 2 where the command line or the scene file is wrong, 1 where the work failed.
     pub const fn exit_status(&self) -> u8 {
         match self {
-            Self::Usage(_) | Self::Scene(_) | Self::Frames(_) => 2,
+            Self::Usage(_) | Self::Scene(_) | Self::Frames(_) | Self::Bake(BakeError::Formulas { .. }) => 2,
             _ => 1,
         }
     }

@@ -98,6 +98,15 @@ pub enum BakeError {
         /// The same line of this bake.
         here: String,
     },
+    /// A sea that is not, or not only, maps.
+    #[error(
+        "nothing to bake: maps are of the spectrum alone, and this sea has {what}, which no map holds; ask `swell query` for its \
+         points"
+    )]
+    Formulas {
+        /// Which, and where the scene has them.
+        what: &'static str,
+    },
     /// A format that cannot hold the maps.
     #[error("cannot describe the maps of this sea: {0}; this is a bug, please report it")]
     Encode(std::io::Error),
@@ -112,8 +121,13 @@ pub enum BakeError {
 /// Writes the maps of `scene`'s sea for every frame asked for, and the description of all frames in the folder.
 ///
 /// # Errors
-/// A folder or file that cannot be written, a folder with a bake of other parameters, a sea that cannot be built.
+/// A sea with formulas, a folder or file that cannot be written, a folder with a bake of other parameters, a sea that
+/// cannot be built.
 pub fn bake(scene: &Scene, options: &BakeOptions) -> Result<BakeReport, BakeError> {
+    if !scene.sea.spectral || !scene.sea.models.is_empty() {
+        let what = if scene.sea.spectral { "a [[layer]]" } else { "a [sea] model that is a formula" };
+        return Err(BakeError::Formulas { what });
+    }
     let folder = &options.out;
     fs::create_dir_all(folder).map_err(|source| OutputError::Folder { path: folder.clone(), source })?;
     let layout = Layout::new(&scene.sea, options.format).map_err(BakeError::Encode)?;

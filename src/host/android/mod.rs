@@ -56,6 +56,9 @@ fn run(app: &AndroidApp) -> Result<(), EntryError> {
     }
     let name = found.file.as_deref().map_or_else(|| "built in".to_owned(), name);
     ::log::info!("scene: {name}");
+    for warning in &found.scene.warnings {
+        ::log::warn!("{warning}");
+    }
     let chosen = folders.settings().map_or_else(Chosen::default, |file| {
         Chosen::load(&file).unwrap_or_else(|error| {
             ::log::error!("{error}; using defaults");

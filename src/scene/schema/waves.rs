@@ -79,7 +79,7 @@ pub(in crate::scene) static WAVE: &[Key<WaveDraft>] = &[
     optional(
         "speed",
         "m/s",
-        [-1000.0, 1000.0],
+        [-100.0, 100.0],
         "sqrt(gravity / k), deep water's",
         |w, v| w.speed = Some(v),
         "Speed of crests; below 0 against the direction, and for rings inwards.",
@@ -151,7 +151,7 @@ pub(in crate::scene) static FBM: &[Key<FbmSettings>] = &[
     number(
         "frequency_ramp",
         "",
-        [0.5, 4.0],
+        [1.0, 4.0],
         1.18,
         |f, v| f.frequency_ramp = v,
         "Wave number of an octave over that of the one before.",
@@ -201,7 +201,7 @@ pub(in crate::scene) static FBM_FOAM: &[Key<FbmFoam>] = &[
     Key {
         name: "range",
         unit: "",
-        kind: Kind::Pair { range: [0.0, 1.0], absent: Absent::Is([0.3, 0.8]), set: |f, v| f.range = v },
+        kind: Kind::Pair { range: [0.0, 1.0], absent: Absent::Is([0.5, 0.85]), set: |f, v| f.range = v },
         meaning: "Heights between which foam grows, as shares of the most that the octaves can sum to; the second exceeds the first.",
     },
     number(

@@ -1,4 +1,5 @@
 //! The surface at a point, from the very maps that are drawn. See `docs/query.md`.
+mod formulas;
 mod grid;
 mod newton;
 mod sample;
@@ -8,6 +9,7 @@ use super::{
     foam::foam,
     maps::SeaMaps,
     settings::{FoamSettings, MAX_CASCADES},
+    waves::Model,
 };
 use grid::Grid;
 use newton::{LANES, Newton};
@@ -67,6 +69,9 @@ pub struct Query<'a> {
     /// How many there are.
     count: usize,
     foam: &'a FoamSettings,
+    /// Formulas that are added to the maps, at this time, seconds.
+    models: &'a [Model],
+    time: f64,
 }
 
 /// How a cascade lies to the first one.
@@ -92,7 +97,8 @@ impl<'a> Query<'a> {
             Frame { turn, follow: turn.map(|part| part * grid.per_metre / grids[0].per_metre) }
         });
         // No cascade at all is one that is flat.
-        Self { grids, frames, count: maps.cascades.len().clamp(1, MAX_CASCADES), foam: &maps.foam }
+        let count = maps.cascades.len().clamp(1, MAX_CASCADES);
+        Self { grids, frames, count, foam: &maps.foam, models: &maps.models, time: maps.time }
     }
 
     /// The point of the surface whose rest position is (`x`, `z`).
@@ -102,10 +108,14 @@ impl<'a> Query<'a> {
 
     /// The point of the surface above or below (`x`, `z`): the q with q + D(q) = (x, z).
     ///
-    /// Newton's method on the piecewise bilinear field that is drawn; where the sea is so steep that it fails, with
+    /// Newton's method on the piecewise bilinear field that is drawn, and on formulas; where the sea is so steep that it fails, with
     /// damped steps and from several places. At most [`MAX_ITERATIONS`] steps in all; `residual` says how well they
     /// went. Where the sea has folded over (J < 0) there are several such points and one of them is returned.
     pub fn above(&self, x: f64, z: f64) -> Surface {
+        if !self.models.is_empty() {
+            let (q, iterations) = formulas::solve(self, [x, z]);
+            return self.surface(q, [x, z], iterations);
+        }
         let mut newton = Newton::<1>::new(self);
         newton.solve(&[[x], [z]]);
         self.found(&newton, 0, [x, z])
@@ -116,6 +126,9 @@ impl<'a> Query<'a> {
     /// # Panics
     /// When `points` and `surfaces` differ in length.
     pub fn above_many(&self, points: &[[f64; 2]], surfaces: &mut [Surface]) {
+        if !self.models.is_empty() {
+            return each(points, surfaces, |[x, z]| self.above(x, z));
+        }
         self.in_lanes(points, surfaces, |newton, targets, surfaces| {
             for (lane, (surface, &target)) in surfaces.iter_mut().zip(targets).enumerate() {
                 *surface = self.found(newton, lane, target);
@@ -129,6 +142,11 @@ impl<'a> Query<'a> {
     /// # Panics
     /// When `points` and `heights` differ in length.
     pub fn heights(&self, points: &[[f64; 2]], heights: &mut [f64]) {
+        if !self.models.is_empty() {
+            return each(points, heights, |point| {
+                Sample::at(self, formulas::solve(self, point).0).value.displacement[1]
+            });
+        }
         self.in_lanes(points, heights, |newton, targets, heights| {
             for (height, solved) in heights.iter_mut().zip(newton.heights()) {
                 *height = solved;
@@ -190,7 +208,7 @@ impl<'a> Query<'a> {
             position: [q[0] + x, height, q[1] + z],
             normal: normal(self, q),
             displacement: [x, height, z],
-            foam: foam(self.foam, sample.value.compression),
+            foam: (foam(self.foam, sample.value.compression) + sample.foam).min(1.0),
             residual: if target == q { 0.0 } else { norm(sample.miss(q, target)) },
             iterations,
         }
@@ -207,5 +225,13 @@ impl<'a> Query<'a> {
     /// The cascades after the first, and how they lie to it.
     fn others(&self) -> impl Iterator<Item = (&Grid<'a>, &Frame)> {
         self.grids().iter().zip(&self.frames).skip(1)
+    }
+}
+
+/// One answer for each of `points`.
+fn each<T>(points: &[[f64; 2]], answers: &mut [T], answer: impl Fn([f64; 2]) -> T) {
+    assert_eq!(points.len(), answers.len(), "one answer for each point");
+    for (to, &point) in answers.iter_mut().zip(points) {
+        *to = answer(point);
     }
 }

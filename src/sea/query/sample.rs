@@ -1,5 +1,6 @@
 //! The summed maps at a rest position: values, derivatives, normal.
 use super::{Query, grid::Grid};
+use crate::sea::waves;
 use std::ops::{Add, Mul};
 
 /// What a map holds at a point, in a cascade's axes or the world's.
@@ -35,6 +36,8 @@ pub struct Sample {
     pub value: Value,
     along_x: Value,
     along_z: Value,
+    /// Foam cover of the models, 0..=1.
+    pub foam: f64,
 }
 
 impl Sample {
@@ -49,7 +52,21 @@ impl Sample {
             let value = a + c * t + (b + e * t) * s;
             sum.add(grid, value, (b + e * t) * grid.per_metre, (c + e * s) * grid.per_metre);
         }
+        sum.add_models(query, q);
         sum
+    }
+
+    /// Adds what is in no map.
+    fn add_models(&mut self, query: &Query<'_>, q: [f64; 2]) {
+        if query.models.is_empty() {
+            return;
+        }
+        let models = waves::evaluate(query.models, q, query.time);
+        let value = |displacement| Value { displacement, compression: 0.0 };
+        self.value = self.value + value(models.displacement);
+        self.along_x = self.along_x + value(models.along_x);
+        self.along_z = self.along_z + value(models.along_z);
+        self.foam = models.foam;
     }
 
     /// Adds a cascade's values, turned from its axes into the world's.
@@ -83,6 +100,23 @@ impl Sample {
             return miss;
         }
         [(zz * miss[0] - xz * miss[1]) / determinant, (xx * miss[1] - zx * miss[0]) / determinant]
+    }
+}
+
+impl Sample {
+    /// The step of Levenberg and Marquardt: the one that would bring a linear field's `miss` to 0, held back by `damping`.
+    pub fn damped_newton(&self, [x, z]: [f64; 2], damping: f64) -> [f64; 2] {
+        let [xx, _, zx] = self.along_x.displacement;
+        let [xz, _, zz] = self.along_z.displacement;
+        let [xx, zz] = [1.0 + xx, 1.0 + zz];
+        // (J^T J + damping) step = J^T miss.
+        let right = [xx * x + zx * z, xz * x + zz * z];
+        let [a, b, d] = [xx * xx + zx * zx + damping, xx * xz + zx * zz, xz * xz + zz * zz + damping];
+        let determinant = a * d - b * b;
+        if determinant <= 0.0 {
+            return [0.0; 2];
+        }
+        [(d * right[0] - b * right[1]) / determinant, (a * right[1] - b * right[0]) / determinant]
     }
 }
 
@@ -125,6 +159,7 @@ pub fn normal(query: &Query<'_>, q: [f64; 2]) -> [f64; 3] {
         });
         sum.add(grid, Value::default(), along_u, along_v);
     }
+    sum.add_models(query, q);
     let [xx, hx, zx] = sum.along_x.displacement;
     let [xz, hz, zz] = sum.along_z.displacement;
     let [xx, zz] = [1.0 + xx, 1.0 + zz];

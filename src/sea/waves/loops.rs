@@ -1,10 +1,13 @@
 //! When an animation of waves closes.
 use super::{Model, Wave};
 
-/// Longest loop that is looked for, as a multiple of the longest period.
-const MOST_LAPS: u32 = 100_000;
-/// How far from a whole number of periods, in turns, a loop may end: a degree would be seen.
-const TOLERANCE: f64 = 1e-6;
+/// The most laps of the slowest wave in a loop that is looked for.
+const MOST_LAPS: u64 = 1_000_000;
+/// The greatest denominator of a ratio of frequencies.
+const MOST_DENOMINATOR: f64 = 1e5;
+/// Relative error that a ratio may have. Rounding leaves a thousandth of it, and of ratios that are no fractions one in a
+/// thousand comes as close to one.
+const TOLERANCE: f64 = 1e-13;
 
 /// The wave with its frequency rounded to a whole number of periods in `loop_period`, seconds: at least one, unless it
 /// stands still.
@@ -16,8 +19,8 @@ pub fn close(wave: Wave, loop_period: f64) -> Wave {
     Wave { frequency: (laps / loop_period).copysign(wave.frequency), ..wave }
 }
 
-/// Seconds after which all waves of `models` are where they were: the shortest such time, 0 where none moves, or nothing
-/// where their periods have no common multiple within 100 000 of the longest.
+/// Seconds after which all waves of `models` are where they were: 0 where none moves, nothing where the ratios of their
+/// frequencies are no fractions.
 pub fn length(models: &[Model]) -> Option<f64> {
     let frequencies = || {
         let all = models.iter().flat_map(Model::waves).map(|wave| wave.frequency.abs());
@@ -27,10 +30,49 @@ pub fn length(models: &[Model]) -> Option<f64> {
     if slowest.is_infinite() {
         return Some(0.0);
     }
-    (1..=MOST_LAPS).map(|laps| f64::from(laps) / slowest).find(|&time| {
-        frequencies().all(|frequency| {
-            let laps = frequency * time;
-            (laps - laps.round()).abs() <= TOLERANCE
-        })
-    })
+    // A wave that makes p laps in q of the slowest is back after any multiple of q of them.
+    let mut laps = 1_u64;
+    for frequency in frequencies() {
+        let own = denominator(frequency / slowest)?;
+        laps = laps / common_divisor(laps, own) * own;
+        if laps > MOST_LAPS {
+            return None;
+        }
+    }
+    Some(laps as f64 / slowest)
+}
+
+/// The denominator of the fraction that `ratio`, 1 or more, is; by its continued fraction.
+fn denominator(ratio: f64) -> Option<u64> {
+    let (mut p, mut q) = ([1.0, ratio.floor()], [0.0, 1.0]);
+    let mut rest = ratio - ratio.floor();
+    while (p[1] / q[1] - ratio).abs() > TOLERANCE * ratio {
+        let whole = (1.0 / rest).floor();
+        rest = 1.0 / rest - whole;
+        p = [p[1], whole * p[1] + p[0]];
+        q = [q[1], whole * q[1] + q[0]];
+        if q[1].is_nan() || q[1] > MOST_DENOMINATOR {
+            return None;
+        }
+    }
+    Some(q[1] as u64)
+}
+
+fn common_divisor(a: u64, b: u64) -> u64 {
+    if b == 0 { a } else { common_divisor(b, a % b) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn fractions_are_found_and_roots_are_none() {
+        for (ratio, own) in [(1.0, 1), (1.5, 2), (7.0 / 5.0, 5), (1234.0 / 997.0, 997), (3.0, 1)] {
+            assert_eq!(denominator(ratio), Some(own), "{ratio}");
+        }
+        for root in [2.0_f64, 3.0, 5.0, 1.3, 2.7] {
+            assert_eq!(denominator(root.sqrt()), None, "{root}");
+        }
+    }
 }

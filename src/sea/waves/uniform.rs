@@ -72,7 +72,7 @@ pub struct ModelsUniform {
 }
 
 const _: () = assert!(size_of::<WaveUniform>() == 32 && size_of::<ModelUniform>() == 48);
-const _: () = assert!(size_of::<ModelsUniform>() % 16 == 0);
+const _: () = assert!(size_of::<ModelsUniform>().is_multiple_of(16));
 
 impl Default for ModelsUniform {
     fn default() -> Self {
