@@ -196,7 +196,6 @@ impl Panel {
     ) -> Result<(), DrawError> {
         let Some(texture) = self.textures.get(&mesh.texture_id) else { return Ok(()) };
         let Some((corner, size)) = pixels(clip, scale, extent) else { return Ok(()) };
-        #[expect(clippy::cast_precision_loss, reason = "sizes are far below 2^24")]
         let to_clip = extent.map(|side| 2.0 * scale / side as f32);
         self.corners.clear();
         self.corners.extend(mesh.vertices.iter().map(|vertex| Corner {
@@ -230,7 +229,6 @@ fn bytes(painting: &Painting) -> u64 {
 
 /// The part of a picture of `extent` pixels that `clip`, in points, leaves: its corner and its size; none if there is nothing.
 fn pixels(clip: Rect, scale: f32, extent: [u32; 2]) -> Option<([u32; 2], [u32; 2])> {
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "brought within the picture")]
     let end = |points: f32, most: u32| ((points * scale).round().max(0.0) as u32).min(most);
     let from = [end(clip.min.x, extent[0]), end(clip.min.y, extent[1])];
     let to = [end(clip.max.x, extent[0]), end(clip.max.y, extent[1])];

@@ -221,7 +221,6 @@ pub(super) fn cut(panel: &mut Panel, maps: &SeaMaps, viewer: &Viewer) {
     let ahead = [-f64::from(back.x) / length, -f64::from(back.z) / length];
     let query = Query::new(maps);
     let heights = (0..SECTION_POINTS).map(|point| {
-        #[expect(clippy::cast_precision_loss, reason = "a few hundred points")]
         let distance = point as f64 * SECTION_STEP;
         query.above(eye.position.x + ahead[0] * distance, eye.position.z + ahead[1] * distance).height()
     });

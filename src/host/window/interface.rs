@@ -26,7 +26,6 @@ impl Interface {
     pub fn new(window: &Window, step: Step) -> Self {
         let context = Context::default();
         context.set_visuals(egui::Visuals::dark());
-        #[expect(clippy::cast_possible_truncation, reason = "a scale")]
         let scale = window.scale_factor() as f32;
         let input =
             egui_winit::State::new(context.clone(), ViewportId::ROOT, window, Some(scale), None, None);
