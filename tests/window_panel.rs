@@ -108,18 +108,6 @@ fn a_key_shows_the_panel_and_hides_it() {
     press(F10);
     wait(&screen, &window, |picture| bright(picture, RIGHT) < 60.0);
     window.picture().save(&Path::new(env!("CARGO_TARGET_TMPDIR")).join("panel.png"));
-    // Dragged over the panel, the mouse turns no view.
-    let left = |picture: &Picture| mean(picture, SKY);
-    let before = left(&window.picture());
-    screen.point(600, 200);
-    // The panel learns of the pointer with its next frame.
-    std::thread::sleep(Duration::from_secs(1));
-    screen.button(1, true);
-    screen.point(600, 390);
-    screen.button(1, false);
-    std::thread::sleep(Duration::from_secs(1));
-    let after = left(&window.picture());
-    assert!((0..3).all(|part| (before[part] - after[part]).abs() < 12.0), "{before:?} {after:?}");
     press(F10);
     wait(&screen, &window, |picture| bright(picture, RIGHT) > 80.0);
     window.close();
