@@ -264,7 +264,7 @@ fn keys_turn_the_waves_up_and_down() {
 fn readouts_are_shown_by_key() {
     let mut desk = Desk::new(&shipped("open_ocean"));
     let scene = Scene::parse(desk.text(), "a").unwrap();
-    desk.panel().accepted(Facts::of(&scene.sea));
+    desk.panel().accepted(Facts::of(&scene.sea), &[]);
     for which in [0, 1] {
         desk.panel().quick(Quick::Readout(which));
     }

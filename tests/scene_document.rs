@@ -204,7 +204,7 @@ fn a_file_changed_by_somebody_else_is_a_step_and_ones_own_is_none() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(64))]
+    #![proptest_config(ProptestConfig::with_cases(24))]
     /// Whatever is changed and in what order: undoing all of it gives the file's own bytes, redoing all of it the last.
     #[test]
     fn undo_and_redo_return_every_byte(

@@ -9,7 +9,7 @@ use crate::gpu::{
 };
 use ash::vk;
 use egui::epaint::{ClippedPrimitive, ImageData, ImageDelta, Mesh, Primitive};
-use egui::{Rect, TextureId, TexturesDelta};
+use egui::{Rect, TextureId};
 use std::collections::HashMap;
 use std::sync::Arc;
 
@@ -25,8 +25,10 @@ const ALIGN: u64 = 4;
 pub struct Painting {
     /// Triangles.
     pub meshes: Vec<ClippedPrimitive>,
-    /// Textures that are new, changed or not wanted any more.
-    pub textures: TexturesDelta,
+    /// Textures that are new or changed, in this order.
+    pub textures: Vec<(TextureId, ImageDelta)>,
+    /// Textures that nobody wants after this frame.
+    pub unused: Vec<TextureId>,
     /// Pixels a point.
     pub scale: f32,
 }
@@ -119,10 +121,8 @@ impl Panel {
             own.ring = UploadRing::new(&self.device, 1, wanted.next_power_of_two())?;
         }
         own.ring.begin(0);
-        for (&id, deltas) in &painting.textures.set {
-            for delta in deltas {
-                self.fill(commands, slot, id, delta)?;
-            }
+        for (id, delta) in &painting.textures {
+            self.fill(commands, slot, *id, delta)?;
         }
         overlay.begin(commands);
         self.pipeline.bind(commands);
@@ -132,7 +132,7 @@ impl Panel {
             }
         }
         overlay.end(commands);
-        let unused = painting.textures.free.iter().filter_map(|id| self.textures.remove(id));
+        let unused = painting.unused.iter().filter_map(|id| self.textures.remove(id));
         self.slots[slot].retired.extend(unused);
         commands.end_label();
         Ok(())
@@ -196,7 +196,6 @@ impl Panel {
     ) -> Result<(), DrawError> {
         let Some(texture) = self.textures.get(&mesh.texture_id) else { return Ok(()) };
         let Some((corner, size)) = pixels(clip, scale, extent) else { return Ok(()) };
-        #[expect(clippy::cast_precision_loss, reason = "sizes are far below 2^24")]
         let to_clip = extent.map(|side| 2.0 * scale / side as f32);
         self.corners.clear();
         self.corners.extend(mesh.vertices.iter().map(|vertex| Corner {
@@ -224,13 +223,12 @@ fn bytes(painting: &Painting) -> u64 {
     };
     let texels = |delta: &ImageDelta| 4 * delta.image.width() * delta.image.height() + 4;
     let all = painting.meshes.iter().map(mesh).sum::<usize>()
-        + painting.textures.set.values().flatten().map(texels).sum::<usize>();
+        + painting.textures.iter().map(|(_, delta)| texels(delta)).sum::<usize>();
     all as u64
 }
 
 /// The part of a picture of `extent` pixels that `clip`, in points, leaves: its corner and its size; none if there is nothing.
 fn pixels(clip: Rect, scale: f32, extent: [u32; 2]) -> Option<([u32; 2], [u32; 2])> {
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "brought within the picture")]
     let end = |points: f32, most: u32| ((points * scale).round().max(0.0) as u32).min(most);
     let from = [end(clip.min.x, extent[0]), end(clip.min.y, extent[1])];
     let to = [end(clip.max.x, extent[0]), end(clip.max.y, extent[1])];

@@ -85,7 +85,6 @@ impl Overlay {
             .render_pass(self.pass)
             .framebuffer(self.framebuffer)
             .render_area(area);
-        #[expect(clippy::cast_precision_loss, reason = "sizes are far below 2^24")]
         let viewport = vk::Viewport {
             x: 0.0,
             y: 0.0,

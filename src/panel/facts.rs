@@ -52,7 +52,6 @@ impl Facts {
     }
 }
 
-#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "bins, and a grid's side")]
 fn spectrum_of(cascade: &CascadeSettings, gravity: f64) -> Vec<[f64; 2]> {
     let half = cascade.resolution as i32 / 2;
     let mut bins = vec![0.0; (BINS * DECADES) as usize];

@@ -40,6 +40,8 @@ pub struct Panel {
     told: String,
     /// Why the text is not what is drawn.
     trouble: Option<String>,
+    /// What of it is allowed and hardly meant.
+    warnings: Vec<String>,
     /// What happened last.
     note: Option<String>,
     /// Shaders that do not compile.
@@ -82,6 +84,7 @@ impl Panel {
             document,
             parts: parts(),
             trouble: None,
+            warnings: Vec::new(),
             note: None,
             shader_trouble: None,
             plots: Plots::default(),
@@ -116,9 +119,9 @@ impl Panel {
         Some(self.told.clone())
     }
 
-    /// The text handed out last is drawn now.
-    pub fn accepted(&mut self, facts: Facts) {
-        (self.trouble, self.facts) = (None, facts);
+    /// The text handed out last is drawn now; `warnings` tell what of it is hardly meant.
+    pub fn accepted(&mut self, facts: Facts, warnings: &[String]) {
+        (self.trouble, self.facts, self.warnings) = (None, facts, warnings.to_vec());
     }
 
     /// The text handed out last cannot be drawn: what was drawn before is drawn still.
@@ -171,6 +174,7 @@ impl Panel {
             }
             Edit::Save => return self.save(),
         }
+        self.note = None;
         self.read_history();
     }
 
@@ -209,6 +213,14 @@ impl Panel {
     /// Opens the sections around the key at `path` and scrolls to it, in the next frame.
     pub fn seek(&mut self, path: &str) {
         self.sought = Some(path.to_owned());
+    }
+
+    /// Notes where `widget` is, which `path` names, and scrolls to it if it is sought.
+    fn note_place(&mut self, path: String, widget: &egui::Response) {
+        if self.sought.as_ref() == Some(&path) {
+            widget.scroll_to_me(Some(egui::Align::Center));
+        }
+        self.places.insert(path, widget.rect);
     }
 
     /// The document is the history's text again.
@@ -270,7 +282,7 @@ impl Panel {
             ];
             for (label, keys, edit, possible) in edits {
                 let button = ui.add_enabled(possible, egui::Button::new(label)).on_hover_text(keys);
-                self.places.insert(label.to_owned(), button.rect);
+                self.note_place(label.to_owned(), &button);
                 if button.clicked() {
                     self.edit(edit);
                 }
@@ -281,6 +293,10 @@ impl Panel {
         let wrong = ui.visuals().error_fg_color;
         for trouble in [&self.trouble, &self.shader_trouble].into_iter().flatten() {
             ui.label(RichText::new(trouble).color(wrong));
+        }
+        let doubtful = ui.visuals().warn_fg_color;
+        for warning in &self.warnings {
+            ui.label(RichText::new(warning).color(doubtful));
         }
         if let Some(note) = &self.note {
             ui.label(RichText::new(note).weak());

@@ -82,7 +82,7 @@ impl Panel {
                             .key
                             .map_or_else(|| preset.name.to_owned(), |key| format!("{} ({key})", preset.name));
                         let button = ui.button(label);
-                        self.places.insert(format!("preset {}", preset.name), button.rect);
+                        self.note_place(format!("preset {}", preset.name), &button);
                         if button.clicked() {
                             picked = Some(*preset);
                         }

@@ -8,7 +8,7 @@ use egui::{CollapsingHeader, Grid, RichText, Ui};
 enum Change {
     /// With the section's path.
     Set(Address, &'static str, &'static str, Value),
-    Unset(Address, &'static str),
+    Unset(Address, &'static str, &'static str),
     Add(Address, String),
     Remove(Address, String, usize),
 }
@@ -40,8 +40,11 @@ impl Panel {
                 }
                 format!("{address}.{key}")
             }
-            Change::Unset(address, key) => {
+            Change::Unset(address, path, key) => {
                 self.document.unset(&address, key);
+                if key == MODEL {
+                    self.leave_out(parts, &address, path);
+                }
                 format!("{address}.{key} unset")
             }
             Change::Add(address, name) => {
@@ -121,7 +124,7 @@ impl Panel {
             let title = format!("[[{path}]] {}", index + 1);
             self.collapsing(ui, &title, &address, |panel, ui| {
                 let remove = ui.small_button("Remove");
-                panel.places.insert(format!("{address} remove"), remove.rect);
+                panel.note_place(format!("{address} remove"), &remove);
                 if remove.clicked() {
                     changes.push(Change::Remove(around.clone(), name.to_owned(), index));
                 }
@@ -129,7 +132,7 @@ impl Panel {
             });
         }
         let add = ui.small_button(format!("Add [[{path}]]"));
-        self.places.insert(format!("{} add", around.table(name)), add.rect);
+        self.note_place(format!("{} add", around.table(name)), &add);
         if add.clicked() {
             changes.push(Change::Add(around.clone(), name.to_owned()));
         }
@@ -148,7 +151,7 @@ impl Panel {
         });
         let header = CollapsingHeader::new(title).id_salt(address.to_string()).open(within.then_some(true));
         let shown = header.show(ui, |ui| show(self, ui));
-        self.places.insert(format!("[{address}]"), shown.header_response.rect);
+        self.note_place(format!("[{address}]"), &shown.header_response);
     }
 
     /// The keys of one table, as its model has them, then the sections in it.
@@ -211,12 +214,9 @@ impl Panel {
                 set
             }
         };
-        if self.sought.as_deref() == Some(path.as_str()) {
-            response.scroll_to_me(Some(egui::Align::Center));
-        }
-        self.places.insert(path, response.rect);
+        self.note_place(path, &response);
         if is_set && ui.small_button("x").on_hover_text(format!("back to {}", field.default_text)).clicked() {
-            changes.push(Change::Unset(address.clone(), field.name));
+            changes.push(Change::Unset(address.clone(), section, field.name));
         }
     }
 }

@@ -168,7 +168,6 @@ fn band_widget(ui: &mut Ui, unit: &str, numbers: &[f64]) -> (Response, Option<Va
 /// A picker that takes colours as the sea does, linear, and the three numbers.
 fn color_widget(ui: &mut Ui, numbers: &[f64]) -> (Response, Option<Value>) {
     let row = ui.horizontal(|ui| {
-        #[expect(clippy::cast_possible_truncation, reason = "a colour to be shown")]
         let mut rgb: [f32; 3] =
             std::array::from_fn(|part| numbers.get(part).map_or(0.0, |part| *part as f32));
         let picked = ui.color_edit_button_rgb(&mut rgb);

@@ -178,10 +178,7 @@ impl Document {
 
 /// A value of the file's as one of ours.
 fn value(toml: &Toml) -> Option<Value> {
-    let number = |toml: &Toml| {
-        #[expect(clippy::cast_precision_loss, reason = "keys that are numbers are read the same way")]
-        toml.as_float().or_else(|| toml.as_integer().map(|integer| integer as f64))
-    };
+    let number = |toml: &Toml| toml.as_float().or_else(|| toml.as_integer().map(|integer| integer as f64));
     match toml {
         Toml::String(text) => Some(Value::Text(text.value().clone())),
         Toml::Integer(integer) => {

@@ -139,7 +139,6 @@ impl FieldKind {
         let number = |value: f64, [low, high]: [f64; 2]| (!value.is_nan()).then(|| value.clamp(low, high));
         match (self, value) {
             (Self::Number(range), Value::Number(given)) => number(*given, *range).map(Value::Number),
-            #[expect(clippy::cast_precision_loss, reason = "files are read the same way")]
             (Self::Number(range), Value::Integer(given)) => number(*given as f64, *range).map(Value::Number),
             (Self::Integer([low, high]), Value::Integer(given)) => {
                 Some(Value::Integer((*given).clamp(*low, *high)))

@@ -5,13 +5,13 @@
 
 use super::shader_watch::ShaderWatch;
 use super::watch::Watch;
-use super::workshop::{Made, Order, Shown, Workshop};
+use super::workshop::{Made, Order, Outcome, Shown, Workshop};
 use super::{WindowHost, WindowSettings};
 use crate::draw::{self, Painting};
 use crate::gpu::{FRAMES_IN_FLIGHT, Overlay, Recorder, Target};
 use crate::host::HostError;
 use crate::host::view::Viewer;
-use crate::panel::{Facts, Measured, Panel, SECTION_POINTS, SECTION_STEP};
+use crate::panel::{Measured, Panel, SECTION_POINTS, SECTION_STEP};
 use crate::sea::{SeaMaps, query::Query};
 use std::sync::Arc;
 use std::time::Instant;
@@ -86,10 +86,11 @@ impl WindowHost {
         if let Some(outcome) = own.workshop.finished() {
             match outcome {
                 // Somebody has chosen another look meanwhile.
-                Ok(made) if made.painter.is_some() && made.look != self.look => own.anew = true,
-                Ok(made) if made.sea.is_some() => own.incoming = Some(made),
-                Ok(made) => self.adopt(made)?,
-                Err(reason) => {
+                Outcome::Facts(facts) => own.panel.accepted(facts, &self.scene.warnings),
+                Outcome::Made(made) if made.painter.is_some() && made.look != self.look => own.anew = true,
+                Outcome::Made(made) if made.sea.is_some() => own.incoming = Some(made),
+                Outcome::Made(made) => self.adopt(made)?,
+                Outcome::Refused(reason) => {
                     if !self.opened.window.interface().is_some_and(|interface| interface.is_shown()) {
                         eprintln!("{reason}");
                     }
@@ -183,7 +184,7 @@ impl WindowHost {
             self.viewer = Viewer::new(&scene.camera);
         }
         self.scene = Arc::new(scene);
-        self.authoring.panel.accepted(facts);
+        self.authoring.panel.accepted(facts, &self.scene.warnings);
         Ok(())
     }
 
@@ -194,8 +195,7 @@ impl WindowHost {
             interface.toggle();
         }
         if self.authoring.panel.wants_facts() {
-            // The scene's own, at the first time.
-            self.authoring.panel.accepted(Facts::of(&self.scene.sea));
+            self.authoring.workshop.order(Order::Facts(Arc::clone(&self.scene)));
         }
     }
 
@@ -221,7 +221,6 @@ pub(super) fn cut(panel: &mut Panel, maps: &SeaMaps, viewer: &Viewer) {
     let ahead = [-f64::from(back.x) / length, -f64::from(back.z) / length];
     let query = Query::new(maps);
     let heights = (0..SECTION_POINTS).map(|point| {
-        #[expect(clippy::cast_precision_loss, reason = "a few hundred points")]
         let distance = point as f64 * SECTION_STEP;
         query.above(eye.position.x + ahead[0] * distance, eye.position.z + ahead[1] * distance).height()
     });

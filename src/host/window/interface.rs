@@ -26,7 +26,6 @@ impl Interface {
     pub fn new(window: &Window, step: Step) -> Self {
         let context = Context::default();
         context.set_visuals(egui::Visuals::dark());
-        #[expect(clippy::cast_possible_truncation, reason = "a scale")]
         let scale = window.scale_factor() as f32;
         let input =
             egui_winit::State::new(context.clone(), ViewportId::ROOT, window, Some(scale), None, None);
@@ -54,12 +53,14 @@ impl Interface {
             return false;
         }
         let consumed = self.input.on_window_event(window, event).consumed;
-        let let_go = match event {
-            WindowEvent::KeyboardInput { event, .. } => event.state == ElementState::Released,
-            WindowEvent::MouseInput { state, .. } => *state == ElementState::Released,
-            _ => false,
-        };
-        consumed && !let_go
+        match event {
+            // A widget that was clicked keeps egui's focus; keys are its own while it is typed into.
+            WindowEvent::KeyboardInput { event, .. } => {
+                self.context.text_edit_focused() && event.state == ElementState::Pressed
+            }
+            WindowEvent::MouseInput { state, .. } => consumed && *state == ElementState::Pressed,
+            _ => consumed,
+        }
     }
 
     /// Puts in an event that no hand made.
@@ -82,7 +83,7 @@ impl Interface {
         }
         input.events.append(&mut self.scripted);
         let pointer = self.pointer;
-        let output = self.context.run_ui(input, |ui| {
+        let mut output = self.context.run_ui(input, |ui| {
             show(ui);
             if let Some(at) = pointer {
                 draw_pointer(ui, at);
@@ -90,7 +91,12 @@ impl Interface {
         });
         self.input.handle_platform_output(window, output.platform_output);
         let meshes = self.context.tessellate(output.shapes, output.pixels_per_point);
-        Some(Painting { meshes, textures: output.textures_delta, scale: output.pixels_per_point })
+        let delta = &mut output.textures_delta;
+        let textures =
+            delta.set.drain().flat_map(|(id, deltas)| deltas.into_iter().map(move |delta| (id, delta)));
+        let textures = textures.collect();
+        let unused = delta.free.drain().collect();
+        Some(Painting { meshes, textures, unused, scale: output.pixels_per_point })
     }
 }
 

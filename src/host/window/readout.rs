@@ -1,4 +1,4 @@
-//! What frames cost, in the window's title: there is nothing that draws text yet.
+//! What frames cost, in the window's title: it is seen without a panel over the picture.
 
 use crate::host::FrameRecord;
 use std::time::{Duration, Instant};

@@ -233,7 +233,6 @@ impl Script {
     }
 }
 
-#[expect(clippy::cast_precision_loss, reason = "a few frames")]
 fn share(frame: u32, of: u32) -> f32 {
     frame as f32 / of as f32
 }

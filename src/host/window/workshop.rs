@@ -11,7 +11,7 @@ use ash::vk;
 use std::any::Any;
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, TryRecvError, channel};
-use std::thread;
+use std::thread::{self, JoinHandle};
 
 /// What is shown now, and with what.
 #[derive(Clone)]
@@ -47,6 +47,8 @@ pub enum Order {
         /// Make the renderer whether or not the scene has changed: shaders have.
         anew: bool,
     },
+    /// Numbers for the panel about a scene that is shown already.
+    Facts(Arc<Scene>),
     /// To be dropped, which may wait.
     Waste(Box<dyn Any + Send>),
 }
@@ -67,13 +69,22 @@ pub struct Made {
     pub look: Look,
 }
 
-/// What became of an order: a scene, or why it is none.
-pub type Outcome = Result<Box<Made>, String>;
+/// What became of an order.
+pub enum Outcome {
+    /// A scene.
+    Made(Box<Made>),
+    /// Why it is none.
+    Refused(String),
+    /// Numbers.
+    Facts(Facts),
+}
 
 /// The thread, by its two ends.
 pub struct Workshop {
-    orders: Sender<Order>,
+    /// Until the end.
+    orders: Option<Sender<Order>>,
     outcomes: Receiver<Outcome>,
+    thread: Option<JoinHandle<()>>,
     busy: bool,
 }
 
@@ -82,7 +93,7 @@ impl Workshop {
     pub fn new() -> Self {
         let (orders, taken) = channel();
         let (made, outcomes) = channel();
-        thread::spawn(move || {
+        let thread = thread::spawn(move || {
             for order in taken {
                 if let Some(outcome) = work(order)
                     && made.send(outcome).is_err()
@@ -91,7 +102,7 @@ impl Workshop {
                 }
             }
         });
-        Self { orders, outcomes, busy: false }
+        Self { orders: Some(orders), outcomes, thread: Some(thread), busy: false }
     }
 
     /// Whether a scene is being made.
@@ -102,22 +113,34 @@ impl Workshop {
     /// Has `order` made.
     pub fn order(&mut self, order: Order) {
         self.busy |= matches!(order, Order::Scene { .. });
-        // Where the thread has gone, the order is dropped here.
-        let _gone = self.orders.send(order);
+        if let Some(orders) = &self.orders {
+            // Where the thread has gone, the order is dropped here.
+            let _gone = orders.send(order);
+        }
     }
 
     /// What has been made since the last call, if something has.
     pub fn finished(&mut self) -> Option<Outcome> {
         match self.outcomes.try_recv() {
             Ok(outcome) => {
-                self.busy = false;
+                self.busy &= matches!(outcome, Outcome::Facts(_));
                 Some(outcome)
             }
             Err(TryRecvError::Empty) => None,
             Err(TryRecvError::Disconnected) => self.busy.then(|| {
                 self.busy = false;
-                Err("the thread that makes scenes has ended".to_owned())
+                Outcome::Refused("the thread that makes scenes has ended".to_owned())
             }),
+        }
+    }
+}
+
+impl Drop for Workshop {
+    /// What it makes uses the device, which is to go after it.
+    fn drop(&mut self) {
+        self.orders = None;
+        if let Some(thread) = self.thread.take() {
+            let _panicked = thread.join();
         }
     }
 }
@@ -128,17 +151,19 @@ fn work(order: Order) -> Option<Outcome> {
             drop(waste);
             None
         }
+        Order::Facts(scene) => Some(Outcome::Facts(Facts::of(&scene.sea))),
         Order::Scene { text, origin, shown, quality, threads, time, anew } => {
             let read = Scene::parse(&text, &origin).map_err(|error| error.to_string());
-            Some(read.and_then(|mut scene| {
+            let made = read.and_then(|mut scene| {
                 scene.lod.quality = quality.unwrap_or(scene.lod.quality);
                 make(scene, &shown, threads, time, anew)
-            }))
+            });
+            Some(made.map_or_else(Outcome::Refused, Outcome::Made))
         }
     }
 }
 
-fn make(scene: Scene, shown: &Shown, threads: usize, time: f64, anew: bool) -> Outcome {
+fn make(scene: Scene, shown: &Shown, threads: usize, time: f64, anew: bool) -> Result<Box<Made>, String> {
     let told = |error: &dyn std::error::Error| error.to_string();
     let before = &shown.scene;
     let sky = if light(&scene.sky) == light(&before.sky) {
@@ -176,6 +201,7 @@ fn light(sky: &SkySettings) -> SkySettings {
 
 /// Whether `after` differs from `before` in nothing but what a renderer can be told. Whatever else there is, known here or not, wants
 /// a new one.
+#[allow(clippy::needless_update, reason = "a key that the water gets later is of that kind")]
 fn is_repainting(before: &Scene, after: &Scene) -> bool {
     let water = WaterSettings {
         deep_color: after.water.deep_color,
