@@ -1,7 +1,7 @@
 //! egui in a window: events in, triangles out.
 
 use crate::draw::Painting;
-use egui::{Context, Pos2, Ui, ViewportId};
+use egui::{Context, Order, Pos2, Rect, Ui, ViewportId};
 use winit::event::{ElementState, WindowEvent};
 use winit::window::Window;
 
@@ -17,6 +17,10 @@ pub struct Interface {
     scripted: Vec<egui::Event>,
     /// Where a script's pointer is: drawn, since nobody else draws it.
     pointer: Option<Pos2>,
+    /// Where the mouse is now, of which egui learns with the next frame.
+    mouse: Option<Pos2>,
+    /// What the panel left of the picture in the frame before.
+    free: Rect,
     time: f64,
     step: Step,
 }
@@ -29,7 +33,17 @@ impl Interface {
         let scale = window.scale_factor() as f32;
         let input =
             egui_winit::State::new(context.clone(), ViewportId::ROOT, window, Some(scale), None, None);
-        Self { context, input, shown: false, scripted: Vec::new(), pointer: None, time: 0.0, step }
+        Self {
+            context,
+            input,
+            shown: false,
+            scripted: Vec::new(),
+            pointer: None,
+            mouse: None,
+            free: Rect::EVERYTHING,
+            time: 0.0,
+            step,
+        }
     }
 
     /// egui's own.
@@ -53,14 +67,26 @@ impl Interface {
             return false;
         }
         let consumed = self.input.on_window_event(window, event).consumed;
+        if let WindowEvent::CursorMoved { position, .. } = event {
+            let scale = egui_winit::pixels_per_point(&self.context, window);
+            self.mouse = Some(Pos2::new(position.x as f32 / scale, position.y as f32 / scale));
+        }
         match event {
             // A widget that was clicked keeps egui's focus; keys are its own while it is typed into.
             WindowEvent::KeyboardInput { event, .. } => {
                 self.context.text_edit_focused() && event.state == ElementState::Pressed
             }
-            WindowEvent::MouseInput { state, .. } => consumed && *state == ElementState::Pressed,
+            WindowEvent::MouseInput { state, .. } => {
+                (consumed || self.is_under_mouse()) && *state == ElementState::Pressed
+            }
             _ => consumed,
         }
+    }
+
+    /// Whether the mouse is over something of egui's, also where it came there since the last frame.
+    fn is_under_mouse(&self) -> bool {
+        let above = |at| self.context.layer_id_at(at).is_some_and(|layer| layer.order != Order::Background);
+        self.mouse.is_some_and(|at| !self.free.contains(at) || above(at))
     }
 
     /// Puts in an event that no hand made.
@@ -82,9 +108,10 @@ impl Interface {
             (input.time, input.focused) = (Some(self.time), true);
         }
         input.events.append(&mut self.scripted);
-        let pointer = self.pointer;
+        let (pointer, free) = (self.pointer, &mut self.free);
         let mut output = self.context.run_ui(input, |ui| {
             show(ui);
+            *free = ui.available_rect_before_wrap();
             if let Some(at) = pointer {
                 draw_pointer(ui, at);
             }

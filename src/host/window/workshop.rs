@@ -201,7 +201,6 @@ fn light(sky: &SkySettings) -> SkySettings {
 
 /// Whether `after` differs from `before` in nothing but what a renderer can be told. Whatever else there is, known here or not, wants
 /// a new one.
-#[allow(clippy::needless_update, reason = "a key that the water gets later is of that kind")]
 fn is_repainting(before: &Scene, after: &Scene) -> bool {
     let water = WaterSettings {
         deep_color: after.water.deep_color,
