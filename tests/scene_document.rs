@@ -213,7 +213,8 @@ proptest! {
     ) {
         let (name, text) = SCENES[which];
         let mut history = History::new(text.to_owned());
-        let parts = parts();
+        // A layer of waves has tables and no keys.
+        let parts: Vec<_> = parts().into_iter().filter(|part| !part.fields.is_empty()).collect();
         let mut texts = vec![text.to_owned()];
         for (part, field, at) in changes {
             let part = part.get(&parts);

@@ -141,9 +141,9 @@ unsafe extern "system" fn create_pipelines(
         if result == vk::Result::SUCCESS {
             for (index, info) in infos.iter().enumerate() {
                 let stages = std::slice::from_raw_parts(info.p_stages, info.stage_count as usize);
-                let module = |flag| stages.iter().find(|stage| stage.stage == flag).unwrap().module;
-                let both = [vk::ShaderStageFlags::VERTEX, vk::ShaderStageFlags::FRAGMENT].map(module);
-                write_down(*made.add(index), both);
+                let module = |flag| stages.iter().find(|stage| stage.stage == flag).map(|stage| stage.module);
+                let vertex = module(vk::ShaderStageFlags::VERTEX).unwrap();
+                write_down(*made.add(index), vertex, module(vk::ShaderStageFlags::FRAGMENT));
             }
         }
         result
@@ -151,14 +151,15 @@ unsafe extern "system" fn create_pipelines(
 }
 
 /// # Safety
-/// `pipeline` was made to keep its statistics, its stages from `modules`: vertex and fragment.
-unsafe fn write_down(pipeline: vk::Pipeline, modules: [vk::ShaderModule; 2]) {
-    let [vertex, fragment] = modules.map(|wanted| {
+/// `pipeline` was made to keep its statistics, its stages from `vertex` and `fragment`, which one of depth alone has not.
+unsafe fn write_down(pipeline: vk::Pipeline, vertex: vk::ShaderModule, fragment: Option<vk::ShaderModule>) {
+    let name = |wanted| {
         let place = LIVE.lock().unwrap().iter().find(|&&(module, _)| module == wanted).unwrap().1;
         MODULES[place].0
-    });
+    };
+    let vertex = name(vertex);
     // Blinn-Phong has no vertex stages of its own.
-    let shading = if fragment.contains("phong_") { "phong_" } else { "" };
+    let shading = if fragment.map(name).is_some_and(|name| name.contains("phong_")) { "phong_" } else { "" };
     let statistics = STATISTICS.get().unwrap();
     let info = vk::PipelineInfoKHR::default().pipeline(pipeline);
     // SAFETY: the caller's promise.
