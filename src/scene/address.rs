@@ -36,6 +36,7 @@ impl Address {
     }
 
     /// Names and numbers, from the top.
+    #[cfg(not(target_os = "android"))]
     pub(super) fn steps(&self) -> &[(String, Option<usize>)] {
         &self.0
     }
