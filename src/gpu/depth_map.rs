@@ -67,21 +67,7 @@ impl DepthMap {
         let clears =
             [vk::ClearValue { depth_stencil: vk::ClearDepthStencilValue { depth: 0.0, stencil: 0 } }];
         let [width, height] = self.image.info.extent;
-        let area = vk::Rect2D { offset: vk::Offset2D::default(), extent: vk::Extent2D { width, height } };
-        let begin = vk::RenderPassBeginInfo::default()
-            .render_pass(self.pass)
-            .framebuffer(self.framebuffer)
-            .render_area(area)
-            .clear_values(&clears);
-        #[expect(clippy::cast_precision_loss, reason = "sizes are far below 2^24")]
-        let (width, height) = (width as f32, height as f32);
-        let viewport = vk::Viewport { x: 0.0, y: 0.0, width, height, min_depth: 0.0, max_depth: 1.0 };
-        // SAFETY: `commands` is recording outside a pass; pass and framebuffer are alive.
-        unsafe {
-            self.device.raw.cmd_begin_render_pass(commands.raw, &begin, vk::SubpassContents::INLINE);
-            self.device.raw.cmd_set_viewport(commands.raw, 0, &[viewport]);
-            self.device.raw.cmd_set_scissor(commands.raw, 0, &[area]);
-        }
+        commands.begin_pass((self.pass, self.framebuffer), vk::Extent2D { width, height }, &clears);
     }
 
     /// Ends the pass: fragment shaders may sample the map from here on.

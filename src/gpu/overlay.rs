@@ -50,8 +50,8 @@ impl Overlay {
             .format(FORMAT)
             .subresource_range(range);
         // SAFETY: the picture is alive, and was made to be seen in other formats of its size.
-        overlay.view =
-            unsafe { device.raw.create_image_view(&view, None) }.doing("creating an image view")?;
+        let made = unsafe { device.raw.create_image_view(&view, None) };
+        overlay.view = made.doing("creating an image view")?;
         let views = [overlay.view];
         let create = vk::FramebufferCreateInfo::default()
             .render_pass(overlay.pass)
@@ -60,8 +60,8 @@ impl Overlay {
             .height(overlay.extent[1])
             .layers(1);
         // SAFETY: pass and view are alive and match each other.
-        overlay.framebuffer =
-            unsafe { device.raw.create_framebuffer(&create, None) }.doing("creating a framebuffer")?;
+        let made = unsafe { device.raw.create_framebuffer(&create, None) };
+        overlay.framebuffer = made.doing("creating a framebuffer")?;
         Ok(overlay)
     }
 
@@ -80,25 +80,7 @@ impl Overlay {
     /// Begins the pass, and sets viewport and scissor to all of the picture.
     pub fn begin(&self, commands: Recorder<'_>) {
         let [width, height] = self.extent;
-        let area = vk::Rect2D { offset: vk::Offset2D::default(), extent: vk::Extent2D { width, height } };
-        let begin = vk::RenderPassBeginInfo::default()
-            .render_pass(self.pass)
-            .framebuffer(self.framebuffer)
-            .render_area(area);
-        let viewport = vk::Viewport {
-            x: 0.0,
-            y: 0.0,
-            width: width as f32,
-            height: height as f32,
-            min_depth: 0.0,
-            max_depth: 1.0,
-        };
-        // SAFETY: `commands` is recording outside a pass; pass and framebuffer are alive.
-        unsafe {
-            self.device.raw.cmd_begin_render_pass(commands.raw, &begin, vk::SubpassContents::INLINE);
-            self.device.raw.cmd_set_viewport(commands.raw, 0, &[viewport]);
-            self.device.raw.cmd_set_scissor(commands.raw, 0, &[area]);
-        }
+        commands.begin_pass((self.pass, self.framebuffer), vk::Extent2D { width, height }, &[]);
     }
 
     /// Ends the pass.

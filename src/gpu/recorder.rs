@@ -25,6 +25,30 @@ impl Recorder<'_> {
         self.device.end_label(self.raw);
     }
 
+    /// Begins `pass` into all of `framebuffer`, and sets viewport and scissor to it. Both are alive, and match.
+    pub(super) fn begin_pass(
+        self,
+        (pass, framebuffer): (vk::RenderPass, vk::Framebuffer),
+        extent: vk::Extent2D,
+        clears: &[vk::ClearValue],
+    ) {
+        let area = vk::Rect2D { offset: vk::Offset2D::default(), extent };
+        let begin = vk::RenderPassBeginInfo::default()
+            .render_pass(pass)
+            .framebuffer(framebuffer)
+            .render_area(area)
+            .clear_values(clears);
+        #[expect(clippy::cast_precision_loss, reason = "sizes are far below 2^24")]
+        let (width, height) = (extent.width as f32, extent.height as f32);
+        let viewport = vk::Viewport { x: 0.0, y: 0.0, width, height, min_depth: 0.0, max_depth: 1.0 };
+        // SAFETY: recording outside a pass; who calls vouches for pass and framebuffer.
+        unsafe {
+            self.device.raw.cmd_begin_render_pass(self.raw, &begin, vk::SubpassContents::INLINE);
+            self.device.raw.cmd_set_viewport(self.raw, 0, &[viewport]);
+            self.device.raw.cmd_set_scissor(self.raw, 0, &[area]);
+        }
+    }
+
     /// Reads vertices (or instances) of input binding `slot` from `buffer` at `offset`.
     pub fn vertex_buffer(self, slot: u32, buffer: vk::Buffer, offset: u64) {
         // SAFETY: recording; owners keep buffers until the frames that use them have ended.

@@ -42,10 +42,10 @@ impl Surface {
         let instance: &Instance = device.instance();
         let display = window.display_handle().map_err(no_handle)?.as_raw();
         let handle = window.window_handle().map_err(no_handle)?.as_raw();
+        let Instance { entry, raw, .. } = instance;
         // SAFETY: the surface keeps the device, which keeps the instance, and the window, which keeps its display.
-        let raw =
-            unsafe { ash_window::create_surface(&instance.entry, &instance.raw, display, handle, None) }
-                .doing("making a surface on the window")?;
+        let made = unsafe { ash_window::create_surface(entry, raw, display, handle, None) };
+        let raw = made.doing("making a surface on the window")?;
         let functions = khr::surface::Instance::new(&instance.entry, &instance.raw);
         let surface = Self { raw, functions, device: Arc::clone(device), _window: Arc::clone(window) };
         let physical = &device.physical;
@@ -73,10 +73,10 @@ impl Surface {
     /// The format to show pictures in: 8 bits a channel, encoded as sRGB by the device. A blit into any other would
     /// leave the pictures too dark.
     pub(super) fn format(&self) -> Result<vk::SurfaceFormatKHR, GpuError> {
+        let physical = self.device.physical.raw;
         // SAFETY: both handles are alive.
-        let formats =
-            unsafe { self.functions.get_physical_device_surface_formats(self.device.physical.raw, self.raw) }
-                .doing("asking for the window's formats")?;
+        let formats = unsafe { self.functions.get_physical_device_surface_formats(physical, self.raw) };
+        let formats = formats.doing("asking for the window's formats")?;
         choose_format(&formats).ok_or_else(|| {
             let names: Vec<String> = formats.iter().map(|f| format!("{:?}", f.format)).collect();
             GpuError::Missing {

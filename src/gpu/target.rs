@@ -214,21 +214,8 @@ impl Target {
             vk::ClearValue { color: vk::ClearColorValue { float32: clear } },
             vk::ClearValue { depth_stencil: vk::ClearDepthStencilValue { depth: 0.0, stencil: 0 } },
         ];
-        let area = vk::Rect2D { offset: vk::Offset2D::default(), extent: self.info.extent };
-        let begin = vk::RenderPassBeginInfo::default()
-            .render_pass(self.pass)
-            .framebuffer(self.framebuffers[turn.color * self.depths + turn.depth])
-            .render_area(area)
-            .clear_values(&clears);
-        #[expect(clippy::cast_precision_loss, reason = "sizes are far below 2^24")]
-        let (width, height) = (self.info.extent.width as f32, self.info.extent.height as f32);
-        let viewport = vk::Viewport { x: 0.0, y: 0.0, width, height, min_depth: 0.0, max_depth: 1.0 };
-        // SAFETY: `commands` is recording outside a pass; pass and framebuffer are alive.
-        unsafe {
-            self.device.raw.cmd_begin_render_pass(commands.raw, &begin, vk::SubpassContents::INLINE);
-            self.device.raw.cmd_set_viewport(commands.raw, 0, &[viewport]);
-            self.device.raw.cmd_set_scissor(commands.raw, 0, &[area]);
-        }
+        let framebuffer = self.framebuffers[turn.color * self.depths + turn.depth];
+        commands.begin_pass((self.pass, framebuffer), self.info.extent, &clears);
     }
 
     /// Ends the pass; a finished image of our own is then in `TRANSFER_SRC_OPTIMAL`.

@@ -161,8 +161,8 @@ fn connect(platform: Platform, validation: Validation) -> Result<Connection, XrE
 fn load(platform: Platform) -> Result<(xr::Entry, xr::ExtensionSet), XrError> {
     // SAFETY: loading the system's OpenXR loader (on Android the one beside this library) runs its initialisers, which are
     // trusted.
-    let entry =
-        unsafe { xr::Entry::load(&platform.info()) }.map_err(|error| XrError::NoLoader(error.to_string()))?;
+    let entry = unsafe { xr::Entry::load(&platform.info()) };
+    let entry = entry.map_err(|error| XrError::NoLoader(error.to_string()))?;
     let found = entry.enumerate_extensions().map_err(no_runtime)?;
     Ok((entry, found))
 }

@@ -58,9 +58,9 @@ impl Opener for Runtime {
     }
 
     fn choose(&self, instance: &Instance, _wanted: Option<&str>) -> Result<PhysicalDevice, GpuError> {
+        let handle = pointer(instance.raw.handle());
         // SAFETY: the instance was made by `create_instance` above and lives.
-        let device =
-            unsafe { self.instance.vulkan_graphics_device(self.system, pointer(instance.raw.handle())) };
+        let device = unsafe { self.instance.vulkan_graphics_device(self.system, handle) };
         let doing = "asking for the headset's Vulkan device";
         let device = device.map_err(|error| refused(doing, error))?;
         PhysicalDevice::given(instance, vk::PhysicalDevice::from_raw(device as usize as u64))

@@ -1,7 +1,8 @@
 //! The point above a place where the sea has models: formulas, whose slope is known exactly, in place of a grid.
 use super::{
     MAX_ITERATIONS, Query,
-    sample::{Sample, norm},
+    guess::{GOLDEN_ANGLE, Guess},
+    sample::norm,
 };
 use crate::sea::waves::Model;
 
@@ -13,9 +14,6 @@ const SLOW: f64 = 0.5;
 const PATIENCE: u32 = 4;
 /// Places to search from, after the first, that cover the disc in which the point must rest.
 const STARTS: f64 = 10.0;
-/// The angle of a sunflower's seeds, which spreads any number of starting points evenly: pi (3 - sqrt 5).
-const GOLDEN_ANGLE: f64 = 2.399_963_229_728_653;
-
 /// The best rest position found and the steps it took.
 ///
 /// Newton's method; where a step does not help, damped as Levenberg and Marquardt do it until it does; where that is slow, at
@@ -53,20 +51,4 @@ pub fn solve(query: &Query<'_>, target: [f64; 2]) -> ([f64; 2], u32) {
         }
     }
     (best.q, MAX_ITERATIONS)
-}
-
-/// A rest position that may be the one sought.
-#[derive(Clone, Copy, Debug)]
-struct Guess {
-    q: [f64; 2],
-    sample: Sample,
-    /// q + D(q) less the target.
-    miss: [f64; 2],
-}
-
-impl Guess {
-    fn at(query: &Query<'_>, q: [f64; 2], target: [f64; 2]) -> Self {
-        let sample = Sample::at(query, q);
-        Self { q, sample, miss: sample.miss(q, target) }
-    }
 }

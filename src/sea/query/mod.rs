@@ -2,6 +2,7 @@
 mod approach;
 mod formulas;
 mod grid;
+mod guess;
 mod newton;
 mod sample;
 mod search;

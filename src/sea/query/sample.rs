@@ -1,5 +1,5 @@
 //! The summed maps at a rest position: values, derivatives, normal.
-use super::{Query, grid::Grid};
+use super::{Query, grid::Grid, newton::NEARLY_FOLDED};
 use crate::sea::waves;
 use std::ops::{Add, Mul};
 
@@ -91,7 +91,6 @@ impl Sample {
 
     /// The step that would bring a linear field's `miss` to 0; the miss itself where the field is nearly folded.
     pub fn newton(&self, miss: [f64; 2]) -> [f64; 2] {
-        const NEARLY_FOLDED: f64 = 0.05;
         let [xx, _, zx] = self.along_x.displacement;
         let [xz, _, zz] = self.along_z.displacement;
         let [xx, zz] = [1.0 + xx, 1.0 + zz];

@@ -1,31 +1,15 @@
 //! The search for points that plain steps do not find: the sea is steep there, or folded.
 use super::{
     MAX_ITERATIONS, Query, TOLERANCE,
-    sample::{Sample, norm},
+    guess::{GOLDEN_ANGLE, Guess},
+    sample::norm,
 };
 
 /// Steps from one starting point; twice as many from the first.
 const STEPS: u32 = 8;
 /// Lengths tried in one step: whole, half, ... one eighth.
 const HALVINGS: u32 = 4;
-/// The angle of a sunflower's seeds, which spreads any number of starting points evenly: pi (3 - sqrt 5).
-const GOLDEN_ANGLE: f64 = 2.399_963_229_728_653;
-
-/// A rest position that may be the one sought.
-#[derive(Clone, Copy, Debug)]
-struct Guess {
-    q: [f64; 2],
-    sample: Sample,
-    /// q + D(q) less the target.
-    miss: [f64; 2],
-}
-
 impl Guess {
-    fn at(query: &Query<'_>, q: [f64; 2], target: [f64; 2]) -> Self {
-        let sample = Sample::at(query, q);
-        Self { q, sample, miss: sample.miss(q, target) }
-    }
-
     /// One step, halved until it helps.
     fn improved(&self, query: &Query<'_>, target: [f64; 2]) -> Option<Self> {
         let step = self.sample.newton(self.miss);
