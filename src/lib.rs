@@ -28,7 +28,6 @@ pub mod host;
 pub mod jobs;
 pub mod lod;
 pub mod output;
-#[cfg(not(target_os = "android"))]
 pub mod panel;
 pub mod raft;
 pub mod scene;

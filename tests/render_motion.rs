@@ -47,7 +47,7 @@ impl Stage {
         };
         let motion = Target::new(&device, info).unwrap();
         let sky = SkyMap::new(&scene.sky).unwrap();
-        let renderer = Renderer::new(&device, &target, scene, &sky, Look::Water).unwrap();
+        let renderer = Renderer::new(&device, target.pass(), scene, &sky, Look::Water).unwrap();
         let commands = (0..FRAMES_IN_FLIGHT).map(|i| Commands::new(&device, &format!("frame {i}")).unwrap());
         let (usage, bytes) = (vk::BufferUsageFlags::TRANSFER_DST, u64::from(SIZE[0] * SIZE[1]) * 2 * 8);
         let readback = Buffer::new(&device, "readback", bytes, usage, MemoryLocation::GpuToCpu).unwrap();
@@ -56,7 +56,7 @@ impl Stage {
 
     fn prepared(scene: &Scene) -> Self {
         let mut stage = Self::new(scene);
-        stage.renderer.prepare_motion(&stage.device, &stage.motion).unwrap();
+        stage.renderer.prepare_motion(&stage.device, stage.motion.pass()).unwrap();
         stage
     }
 
@@ -329,7 +329,7 @@ fn motion_has_to_be_prepared() {
         stage.renderer.record_motion(recording, &stage.motion, Turn::default()).unwrap_err().to_string(),
         said
     );
-    stage.renderer.prepare_motion(&stage.device, &stage.motion).unwrap();
+    stage.renderer.prepare_motion(&stage.device, stage.motion.pass()).unwrap();
     assert_eq!(
         stage.renderer.record_motion(recording, &stage.motion, Turn::default()).unwrap_err().to_string(),
         said

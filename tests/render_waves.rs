@@ -78,7 +78,7 @@ impl Probe {
                 cull: false,
                 lines: false,
             };
-            Pipeline::new(&device, &target, bindings.pipeline_layout, &info).unwrap()
+            Pipeline::new(&device, target.pass(), bindings.pipeline_layout, &info).unwrap()
         };
         let pipelines = [
             pipeline((shaders::PROBE_DISPLACEMENT_MAIN, c"displacement_main")),

@@ -39,10 +39,10 @@ fn compiles_every_pipeline() {
     let first = scene.sea.cascades[0].clone();
     for cascades in 1..=MAX_CASCADES {
         scene.sea.cascades.resize(cascades, first.clone());
-        let mut renderer = Renderer::new(&device, &eyes, &scene, &sky, Look::Water).unwrap();
-        renderer.prepare_motion(&device, &motion).unwrap();
+        let mut renderer = Renderer::new(&device, eyes.pass(), &scene, &sky, Look::Water).unwrap();
+        renderer.prepare_motion(&device, motion.pass()).unwrap();
         scene.water.shadows.shadows = Shadows::On;
-        Renderer::new(&device, &eyes, &scene, &sky, Look::Water).unwrap();
+        Renderer::new(&device, eyes.pass(), &scene, &sky, Look::Water).unwrap();
         scene.water.shadows.shadows = Shadows::Off;
         let mut told = BTreeSet::new();
         for cost in listener::take(cascades) {
@@ -62,8 +62,8 @@ fn compiles_every_pipeline() {
         for cascades in usize::from(models.is_empty())..=MAX_CASCADES {
             scene.sea.spectral = cascades > 0;
             scene.sea.cascades.resize(cascades.max(1), first.clone());
-            let mut renderer = Renderer::new(&device, &eyes, &scene, &sky, Look::Water).unwrap();
-            renderer.prepare_motion(&device, &motion).unwrap();
+            let mut renderer = Renderer::new(&device, eyes.pass(), &scene, &sky, Look::Water).unwrap();
+            renderer.prepare_motion(&device, motion.pass()).unwrap();
             let prefix = if shading == Shading::BlinnPhong { "phong_" } else { "analytic_" };
             for cost in listener::take(cascades).iter().filter(|cost| cost.pipeline.starts_with(prefix)) {
                 println!("{}", cost.line());

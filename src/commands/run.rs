@@ -4,8 +4,8 @@ use super::{Clock, CommandError, Frames, RenderOptions, render};
 use crate::draw::Look;
 use crate::gpu::Validation;
 use crate::host::{
-    Companion, CompanionSettings, HeadsetSettings, HostError, Mirror, Script, WindowHost, WindowSettings,
-    headset,
+    AuthoringSettings, Companion, CompanionSettings, Fit, HeadsetSettings, HostError, Mirror, Script,
+    WindowHost, WindowSettings, headset,
 };
 use crate::lod::Quality;
 use crate::output::{OutputError, atomic::write_whole};
@@ -126,13 +126,7 @@ fn listen() -> Result<Arc<AtomicBool>, CommandError> {
 }
 
 fn window(scene: &Scene, options: &RunOptions, stop: &Arc<AtomicBool>) -> Result<(), CommandError> {
-    let AuthoringOptions { scene_file, quality, shaders, play, record } = options.authoring.clone();
-    let scene_text = match &scene_file {
-        Some(file) => {
-            fs::read_to_string(file).map_err(|source| SceneError::Read { path: file.clone(), source })?
-        }
-        None => Scene::FLAGSHIP.to_owned(),
-    };
+    let AuthoringOptions { shaders, play, record, .. } = options.authoring.clone();
     let settings = WindowSettings {
         size: options.size,
         device: options.device.clone(),
@@ -143,9 +137,7 @@ fn window(scene: &Scene, options: &RunOptions, stop: &Arc<AtomicBool>) -> Result
         screenshot: options.screenshot.clone(),
         frame_log: options.frame_log.clone(),
         stop: Arc::clone(stop),
-        scene_text,
-        scene_file,
-        quality,
+        authoring: authored(&options.authoring)?,
         shaders,
         play: play.as_deref().map(Script::load).transpose().map_err(HostError::from)?,
         record,
@@ -161,6 +153,19 @@ fn window(scene: &Scene, options: &RunOptions, stop: &Arc<AtomicBool>) -> Result
         Some(wanted) if !ending.complete => Err(CommandError::Early { drawn: ending.frames, wanted }),
         _ => Ok(()),
     }
+}
+
+/// The text that the scene was read from.
+fn authored(options: &AuthoringOptions) -> Result<AuthoringSettings, CommandError> {
+    let AuthoringOptions { scene_file: file, quality, .. } = options.clone();
+    let text = match &file {
+        Some(file) => {
+            fs::read_to_string(file).map_err(|source| SceneError::Read { path: file.clone(), source })?
+        }
+        None => Scene::FLAGSHIP.to_owned(),
+    };
+    let fit = Fit::new(move |scene| scene.lod.quality = quality.unwrap_or(scene.lod.quality));
+    Ok(AuthoringSettings { text, file, fit })
 }
 
 fn in_headset(
@@ -195,6 +200,7 @@ fn in_headset(
         thread_hints: true,
         space_warp: xr.space_warp,
         fallback: None,
+        authoring: Some(authored(&options.authoring)?),
     };
     let shown = headset(scene, &settings, &mut companion);
     // The files are ended whatever happened.

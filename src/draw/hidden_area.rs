@@ -6,8 +6,8 @@ use super::error::DrawError;
 use super::shaders;
 use super::vertex_input::{by_vertex, field};
 use crate::gpu::{
-    Bindings, Blend, Buffer, DepthUse, Device, GpuError, Pipeline, PipelineInfo, Recorder, Target,
-    VertexInput, upload_buffer,
+    Bindings, Blend, Buffer, DepthUse, Device, GpuError, Pass, Pipeline, PipelineInfo, Recorder, VertexInput,
+    upload_buffer,
 };
 use ash::vk;
 use std::sync::Arc;
@@ -28,11 +28,11 @@ pub struct HiddenArea {
 }
 
 impl HiddenArea {
-    /// The pipeline for `target`, and nothing hidden.
+    /// The pipeline for `pass`, and nothing hidden.
     ///
     /// # Errors
     /// The driver refuses.
-    pub fn new(device: &Arc<Device>, target: &Target, bindings: &Bindings) -> Result<Self, GpuError> {
+    pub fn new(device: &Arc<Device>, pass: &Pass, bindings: &Bindings) -> Result<Self, GpuError> {
         let info = PipelineInfo {
             name: "hidden area",
             vertex: (shaders::HIDDEN_AREA_VERTEX_MAIN, c"vertex_main"),
@@ -43,7 +43,7 @@ impl HiddenArea {
             cull: false,
             lines: false,
         };
-        Ok(Self { pipeline: Pipeline::new(device, target, bindings.pipeline_layout, &info)?, mesh: None })
+        Ok(Self { pipeline: Pipeline::new(device, pass, bindings.pipeline_layout, &info)?, mesh: None })
     }
 
     /// Hides `meshes`, one for each view, from now on; waits for the device.

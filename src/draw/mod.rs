@@ -15,7 +15,6 @@ mod hidden_area;
 mod moment;
 mod motion;
 mod ocean;
-#[cfg(not(target_os = "android"))]
 mod overlay;
 mod patch_grid;
 mod raft;
@@ -46,7 +45,6 @@ pub use error::DrawError;
 pub use hands::{HAND_SOLIDS, Hand, hand, joint, ray};
 pub use hidden_area::HiddenMesh;
 pub use moment::Moment;
-#[cfg(not(target_os = "android"))]
 pub use overlay::{Painting, Panel};
 pub use raft::{RAFT_SOLIDS, Raft};
 pub use renderer::Renderer;

@@ -12,7 +12,7 @@ use super::sea_stages::SeaStages;
 use super::shaders as s;
 use super::solids::{MOST_SOLIDS, MOTION_INPUT, Solid};
 use crate::gpu::{
-    Bindings, Blend, DepthUse, Device, FRAMES_IN_FLIGHT, GpuError, Pipeline, PipelineInfo, Recorder, Target,
+    Bindings, Blend, DepthUse, Device, FRAMES_IN_FLIGHT, GpuError, Pass, Pipeline, PipelineInfo, Recorder,
     VertexInput,
 };
 use std::sync::Arc;
@@ -48,13 +48,13 @@ pub const fn slot_before(slot: usize) -> usize {
 }
 
 impl Motion {
-    /// Pipelines for `target` and a sea drawn by `stages`; there is no frame before.
+    /// Pipelines for `pass` and a sea drawn by `stages`; there is no frame before.
     ///
     /// # Errors
     /// The driver refuses.
     pub fn new(
         device: &Arc<Device>,
-        target: &Target,
+        pass: &Pass,
         bindings: &Bindings,
         stages: SeaStages,
     ) -> Result<Self, GpuError> {
@@ -80,9 +80,9 @@ impl Motion {
             ..solids
         };
         Ok(Self {
-            surface: ocean::surface(device, target, bindings, vertex, &layer)?,
-            solids: Pipeline::new(device, target, bindings.pipeline_layout, &solids)?,
-            sky: Pipeline::new(device, target, bindings.pipeline_layout, &sky)?,
+            surface: ocean::surface(device, pass, bindings, vertex, &layer)?,
+            solids: Pipeline::new(device, pass, bindings.pipeline_layout, &solids)?,
+            sky: Pipeline::new(device, pass, bindings.pipeline_layout, &sky)?,
             slot: None,
             time: 0.0,
             eyes: Vec::with_capacity(2),

@@ -5,8 +5,8 @@ use super::patch_grid::{GridVertex, PatchGrid};
 use super::sea_stages::SeaStages;
 use super::vertex_input::{by_instance, by_vertex, field};
 use crate::gpu::{
-    Bindings, Blend, Buffer, DepthUse, Device, GpuError, Pipeline, PipelineInfo, Recorder, Target,
-    UploadRing, VertexInput, upload_buffer,
+    Bindings, Blend, Buffer, DepthUse, Device, GpuError, Pass, Pipeline, PipelineInfo, Recorder, UploadRing,
+    VertexInput, upload_buffer,
 };
 use crate::lod::{self, Selection, Tessellation};
 use ash::vk;
@@ -65,14 +65,14 @@ impl Ocean {
     /// Out of memory, or the device cannot draw lines.
     pub fn new(
         device: &Arc<Device>,
-        target: &Target,
+        pass: &Pass,
         bindings: &Bindings,
         settings: &lod::LodSettings,
         stages: SeaStages,
         layers: &[Layer],
     ) -> Result<Self, GpuError> {
         let vertex = [(stages.patch(), c"vertex_main"), (stages.skirt(), c"vertex_main")];
-        let make = |layer| surface(device, target, bindings, vertex, layer);
+        let make = |layer| surface(device, pass, bindings, vertex, layer);
         let layers = layers.iter().map(make).collect::<Result<_, GpuError>>()?;
         Ok(Self { layers, meshes: Meshes::new(device, settings)? })
     }
@@ -195,15 +195,12 @@ pub type Stage = (&'static [u8], &'static CStr);
 /// The driver refuses, or cannot draw lines.
 pub fn surface(
     device: &Arc<Device>,
-    target: &Target,
+    pass: &Pass,
     bindings: &Bindings,
     vertex: [Stage; 2],
     layer: &Layer,
 ) -> Result<[Pipeline; 2], GpuError> {
-    Ok([
-        patches(device, target, bindings, vertex[0], layer)?,
-        skirt(device, target, bindings, vertex[1], layer)?,
-    ])
+    Ok([patches(device, pass, bindings, vertex[0], layer)?, skirt(device, pass, bindings, vertex[1], layer)?])
 }
 
 /// The patches' pipeline alone.
@@ -212,13 +209,13 @@ pub fn surface(
 /// As [`surface`].
 pub fn patches(
     device: &Arc<Device>,
-    target: &Target,
+    pass: &Pass,
     bindings: &Bindings,
     vertex: Stage,
     layer: &Layer,
 ) -> Result<Pipeline, GpuError> {
     let info = PipelineInfo { name: "patches", input: PATCH_INPUT, ..layer.pipeline(vertex) };
-    Pipeline::new(device, target, bindings.pipeline_layout, &info)
+    Pipeline::new(device, pass, bindings.pipeline_layout, &info)
 }
 
 /// The skirt's pipeline alone.
@@ -227,13 +224,13 @@ pub fn patches(
 /// As [`surface`].
 pub fn skirt(
     device: &Arc<Device>,
-    target: &Target,
+    pass: &Pass,
     bindings: &Bindings,
     vertex: Stage,
     layer: &Layer,
 ) -> Result<Pipeline, GpuError> {
     let info = PipelineInfo { name: "skirt", input: SKIRT_INPUT, ..layer.pipeline(vertex) };
-    Pipeline::new(device, target, bindings.pipeline_layout, &info)
+    Pipeline::new(device, pass, bindings.pipeline_layout, &info)
 }
 
 /// `Patch` of `shaders/patch.wgsl`: a [`GridVertex`], and an instance of [`lod::Instance`].

@@ -33,6 +33,19 @@ pub struct Painting {
     pub scale: f32,
 }
 
+impl Painting {
+    /// What `context` has put out for a frame.
+    pub fn of(context: &egui::Context, mut output: egui::FullOutput) -> Self {
+        let meshes = context.tessellate(output.shapes, output.pixels_per_point);
+        let delta = &mut output.textures_delta;
+        let changed = delta.set.drain();
+        let textures = changed.flat_map(|(id, deltas)| deltas.into_iter().map(move |delta| (id, delta)));
+        let textures = textures.collect();
+        let unused = delta.free.drain().collect();
+        Self { meshes, textures, unused, scale: output.pixels_per_point }
+    }
+}
+
 /// A corner of a triangle as the shader reads it.
 #[repr(C)]
 #[derive(Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]

@@ -20,8 +20,8 @@ use super::uniforms::{Constant, Frame, Spacing};
 use super::vignette::Vignette;
 use super::waves::Waves;
 use crate::gpu::{
-    Bindings, Device, FRAMES_IN_FLIGHT, GpuError, Image, ImageInfo, Recorder, Resource, Sampler, Target,
-    Turn, UploadRing, upload_image,
+    Bindings, Device, FRAMES_IN_FLIGHT, GpuError, Image, ImageInfo, Pass, Recorder, Resource, Sampler,
+    Target, Turn, UploadRing, upload_image,
 };
 use crate::lod::{Frustum, LodSettings, Quadtree, Quality, vertex_spacing};
 use crate::scene::{Scene, Shadows};
@@ -71,13 +71,13 @@ pub struct Renderer {
 }
 
 impl Renderer {
-    /// Makes textures, meshes and pipelines for `scene`, seen as `look`, in targets like `target`.
+    /// Makes textures, meshes and pipelines for `scene`, seen as `look`, in targets of `pass`.
     ///
     /// # Errors
     /// Out of device memory, or the device cannot draw this look.
     pub fn new(
         device: &Arc<Device>,
-        target: &Target,
+        pass: &Pass,
         scene: &Scene,
         sky_map: &SkyMap,
         look: Look,
@@ -100,14 +100,13 @@ impl Renderer {
             + 1024;
         let ring = UploadRing::new(device, FRAMES_IN_FLIGHT as u64, share)?;
         let bindings = Bindings::new(device, BINDINGS, FRAMES_IN_FLIGHT)?;
-        let hidden_area = HiddenArea::new(device, target, &bindings)?;
-        let solids = if look.has_solids() { Some(Solids::new(device, target, &bindings)?) } else { None };
-        let shadow = Shadow::new(device, target, &bindings, scene, sky_map, look)?;
+        let hidden_area = HiddenArea::new(device, pass, &bindings)?;
+        let solids = if look.has_solids() { Some(Solids::new(device, pass, &bindings)?) } else { None };
+        let shadow = Shadow::new(device, pass, &bindings, scene, sky_map, look)?;
         let layers = if shadow.is_some() { Vec::new() } else { look.layers(stages) };
-        let ocean = Ocean::new(device, target, &bindings, &scene.lod, stages, &layers)?;
-        let sky = if look.has_sky() { Some(Sky::new(device, target, &bindings)?) } else { None };
-        let vignette =
-            if look.has_vignette() { Some(Vignette::new(device, target, &bindings)?) } else { None };
+        let ocean = Ocean::new(device, pass, &bindings, &scene.lod, stages, &layers)?;
+        let sky = if look.has_sky() { Some(Sky::new(device, pass, &bindings)?) } else { None };
+        let vignette = if look.has_vignette() { Some(Vignette::new(device, pass, &bindings)?) } else { None };
         let shared = shared_textures(device, sky_map)?;
         let textures = (0..FRAMES_IN_FLIGHT)
             .map(|_| SeaTextures::new(device, cascades))
@@ -233,13 +232,13 @@ impl Renderer {
         Ok(counts)
     }
 
-    /// Makes what [`Self::record_motion`] needs to draw into targets like `target`: one sample, four signed 16-bit floats,
+    /// Makes what [`Self::record_motion`] needs to draw into targets of `pass`: one sample, four signed 16-bit floats,
     /// as many views as the frames have.
     ///
     /// # Errors
     /// Out of memory, or the driver refuses.
-    pub fn prepare_motion(&mut self, device: &Arc<Device>, target: &Target) -> Result<(), DrawError> {
-        self.motion = Some(Motion::new(device, target, &self.bindings, self.stages)?);
+    pub fn prepare_motion(&mut self, device: &Arc<Device>, pass: &Pass) -> Result<(), DrawError> {
+        self.motion = Some(Motion::new(device, pass, &self.bindings, self.stages)?);
         self.latest = None;
         Ok(())
     }

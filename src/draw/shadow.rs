@@ -12,8 +12,8 @@ use super::sky_map::SkyMap;
 use super::solids::{self, Solids, Uploaded};
 use super::sun_map::Fit;
 use crate::gpu::{
-    Bindings, Blend, DepthInfo, DepthMap, DepthUse, Device, GpuError, Pipeline, PipelineInfo, Recorder,
-    Sampler, Target, UploadRing,
+    Bindings, Blend, DepthInfo, DepthMap, DepthUse, Device, GpuError, Pass, Pipeline, PipelineInfo, Recorder,
+    Sampler, UploadRing,
 };
 use crate::lod::{LodError, LodSettings, Quadtree};
 use crate::scene::{Scene, ShadowSettings, Shadows};
@@ -44,13 +44,13 @@ pub struct Shadow {
 }
 
 impl Shadow {
-    /// What shadows need in `target`; nothing where `scene` has none, or `look` shows none.
+    /// What shadows need in `pass`; nothing where `scene` has none, or `look` shows none.
     ///
     /// # Errors
     /// Out of memory, or the driver refuses.
     pub fn new(
         device: &Arc<Device>,
-        target: &Target,
+        pass: &Pass,
         bindings: &Bindings,
         scene: &Scene,
         sky: &SkyMap,
@@ -82,10 +82,10 @@ impl Shadow {
         };
         Ok(Some(Self {
             surface: [
-                ocean::patches(device, target, bindings, patches, &lit)?,
-                ocean::skirt(device, target, bindings, skirt, &beyond)?,
+                ocean::patches(device, pass, bindings, patches, &lit)?,
+                ocean::skirt(device, pass, bindings, skirt, &beyond)?,
             ],
-            solids: Pipeline::new(device, target, bindings.pipeline_layout, &solids)?,
+            solids: Pipeline::new(device, pass, bindings.pipeline_layout, &solids)?,
             sampler: Sampler::comparing(device, "sun's map")?,
             cast_patches: cast(
                 "patches' shadows",

@@ -3,7 +3,7 @@
 use super::counts::DrawCounts;
 use super::shaders;
 use crate::gpu::{
-    Bindings, Blend, DepthUse, Device, GpuError, Pipeline, PipelineInfo, Recorder, Target, VertexInput,
+    Bindings, Blend, DepthUse, Device, GpuError, Pass, Pipeline, PipelineInfo, Recorder, VertexInput,
 };
 use std::sync::Arc;
 
@@ -11,11 +11,11 @@ use std::sync::Arc;
 pub struct Sky(Pipeline);
 
 impl Sky {
-    /// Compiles it for `target`.
+    /// Compiles it for `pass`.
     ///
     /// # Errors
     /// The driver refuses.
-    pub fn new(device: &Arc<Device>, target: &Target, bindings: &Bindings) -> Result<Self, GpuError> {
+    pub fn new(device: &Arc<Device>, pass: &Pass, bindings: &Bindings) -> Result<Self, GpuError> {
         let info = PipelineInfo {
             name: "sky",
             vertex: (shaders::SKY_VERTEX_MAIN, c"vertex_main"),
@@ -26,7 +26,7 @@ impl Sky {
             cull: false,
             lines: false,
         };
-        Ok(Self(Pipeline::new(device, target, bindings.pipeline_layout, &info)?))
+        Ok(Self(Pipeline::new(device, pass, bindings.pipeline_layout, &info)?))
     }
 
     /// Draws it, last, inside the pass.

@@ -6,8 +6,8 @@ use super::shaders;
 use super::solid_meshes::{Meshes, Part, SolidVertex};
 use super::vertex_input::{by_instance, by_vertex, field};
 use crate::gpu::{
-    Bindings, Blend, Buffer, DepthUse, Device, GpuError, Pipeline, PipelineInfo, Recorder, Target,
-    UploadRing, VertexInput, upload_buffer,
+    Bindings, Blend, Buffer, DepthUse, Device, GpuError, Pass, Pipeline, PipelineInfo, Recorder, UploadRing,
+    VertexInput, upload_buffer,
 };
 use ash::vk;
 use bytemuck::{Pod, Zeroable};
@@ -113,11 +113,11 @@ impl Solids {
     /// Bytes of instances that a frame may need.
     pub const BYTES: u64 = (MOST_SOLIDS * size_of::<SolidInstance>()) as u64 + 16;
 
-    /// Meshes, and the pipeline for `target`.
+    /// Meshes, and the pipeline for `pass`.
     ///
     /// # Errors
     /// Out of memory, or the driver refuses.
-    pub fn new(device: &Arc<Device>, target: &Target, bindings: &Bindings) -> Result<Self, GpuError> {
+    pub fn new(device: &Arc<Device>, pass: &Pass, bindings: &Bindings) -> Result<Self, GpuError> {
         let mut meshes = Meshes::default();
         let parts = SHAPES.map(|shape| {
             meshes.part(match shape {
@@ -140,7 +140,7 @@ impl Solids {
             cull: true,
             lines: false,
         };
-        let pipeline = Pipeline::new(device, target, bindings.pipeline_layout, &info)?;
+        let pipeline = Pipeline::new(device, pass, bindings.pipeline_layout, &info)?;
         Ok(Self { pipeline, vertices, indices, parts, instances: Vec::with_capacity(MOST_SOLIDS) })
     }
 

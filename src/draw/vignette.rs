@@ -7,7 +7,7 @@ use super::camera::{Eye, Fov};
 use super::counts::DrawCounts;
 use super::shaders;
 use crate::gpu::{
-    Bindings, Blend, DepthUse, Device, GpuError, Pipeline, PipelineInfo, Recorder, Target, VertexInput,
+    Bindings, Blend, DepthUse, Device, GpuError, Pass, Pipeline, PipelineInfo, Recorder, VertexInput,
 };
 use glam::Vec4;
 use std::sync::Arc;
@@ -25,11 +25,11 @@ const WIDEST: f32 = 1.45;
 pub struct Vignette(Pipeline);
 
 impl Vignette {
-    /// Compiles it for `target`, whose format can be blended.
+    /// Compiles it for `pass`, whose format can be blended.
     ///
     /// # Errors
     /// The driver refuses.
-    pub fn new(device: &Arc<Device>, target: &Target, bindings: &Bindings) -> Result<Self, GpuError> {
+    pub fn new(device: &Arc<Device>, pass: &Pass, bindings: &Bindings) -> Result<Self, GpuError> {
         let info = PipelineInfo {
             name: "vignette",
             vertex: (shaders::VIGNETTE_VERTEX_MAIN, c"vertex_main"),
@@ -40,7 +40,7 @@ impl Vignette {
             cull: false,
             lines: false,
         };
-        Ok(Self(Pipeline::new(device, target, bindings.pipeline_layout, &info)?))
+        Ok(Self(Pipeline::new(device, pass, bindings.pipeline_layout, &info)?))
     }
 
     /// Draws it, after everything else, inside the pass.

@@ -42,6 +42,7 @@ pub use physical::{PhysicalDevice, version};
 pub use pipeline::{Blend, DepthInfo, DepthUse, Pipeline, PipelineInfo, VertexInput};
 pub use presenter::{Layers, Outcome, Picture, Presenter};
 pub use recorder::Recorder;
+pub use render_pass::Pass;
 pub use ring::UploadRing;
 pub use surface::{Shown, Surface};
 pub use swapchain::Pace;

@@ -1,4 +1,4 @@
-//! A pass over a finished picture, for what is drawn on a screen and not in the world.
+//! A pass over a finished picture or an empty one, for what is drawn on a screen or a panel and not in the world.
 //!
 //! Colours are blended as they are encoded (sRGB), which is how people who draw user interfaces mean them: the pass sees the
 //! picture through a view that encodes nothing. One sample a pixel, no depth, one layer.
@@ -11,8 +11,6 @@ use super::recorder::Recorder;
 use ash::vk;
 use std::sync::Arc;
 
-/// Of the view.
-const FORMAT: vk::Format = vk::Format::R8G8B8A8_UNORM;
 const ONE: vk::SampleCountFlags = vk::SampleCountFlags::TYPE_1;
 
 /// The pass, and the picture it draws on.
@@ -32,9 +30,37 @@ impl Overlay {
     /// # Errors
     /// Out of memory.
     pub fn new(device: &Arc<Device>, picture: &Image) -> Result<Self, GpuError> {
+        let format = vk::Format::R8G8B8A8_UNORM;
+        Self::over(device, (picture.raw, picture.info.extent), format, Ground::Picture)
+    }
+
+    /// A pass over the first layer of `image`, which somebody lends: of 8-bit sRGB colours in `format`, `extent` pixels large, made
+    /// to be seen in other formats. It is black first, and left in `COLOR_ATTACHMENT_OPTIMAL`.
+    ///
+    /// # Errors
+    /// Out of memory.
+    pub fn lent(
+        device: &Arc<Device>,
+        image: vk::Image,
+        extent: [u32; 2],
+        format: vk::Format,
+    ) -> Result<Self, GpuError> {
+        let format = match format {
+            vk::Format::B8G8R8A8_SRGB => vk::Format::B8G8R8A8_UNORM,
+            _ => vk::Format::R8G8B8A8_UNORM,
+        };
+        Self::over(device, (image, extent), format, Ground::Black)
+    }
+
+    fn over(
+        device: &Arc<Device>,
+        (image, extent): (vk::Image, [u32; 2]),
+        format: vk::Format,
+        ground: Ground,
+    ) -> Result<Self, GpuError> {
         let mut overlay = Self {
-            extent: picture.info.extent,
-            pass: create_pass(device)?,
+            extent,
+            pass: create_pass(device, format, ground)?,
             view: vk::ImageView::null(),
             framebuffer: vk::Framebuffer::null(),
             device: Arc::clone(device),
@@ -45,9 +71,9 @@ impl Overlay {
             .level_count(1)
             .layer_count(1);
         let view = vk::ImageViewCreateInfo::default()
-            .image(picture.raw)
+            .image(image)
             .view_type(vk::ImageViewType::TYPE_2D)
-            .format(FORMAT)
+            .format(format)
             .subresource_range(range);
         // SAFETY: the picture is alive, and was made to be seen in other formats of its size.
         let made = unsafe { device.raw.create_image_view(&view, None) };
@@ -80,7 +106,11 @@ impl Overlay {
     /// Begins the pass, and sets viewport and scissor to all of the picture.
     pub fn begin(&self, commands: Recorder<'_>) {
         let [width, height] = self.extent;
-        commands.begin_pass((self.pass, self.framebuffer), vk::Extent2D { width, height }, &[]);
+        commands.begin_pass(
+            (self.pass, self.framebuffer),
+            vk::Extent2D { width, height },
+            &[vk::ClearValue::default()],
+        );
     }
 
     /// Ends the pass.
@@ -101,18 +131,36 @@ impl Drop for Overlay {
     }
 }
 
-fn create_pass(device: &Device) -> Result<vk::RenderPass, GpuError> {
+/// What is drawn over.
+#[derive(Clone, Copy)]
+enum Ground {
+    /// What was drawn before.
+    Picture,
+    /// Nothing.
+    Black,
+}
+
+fn create_pass(device: &Device, format: vk::Format, ground: Ground) -> Result<vk::RenderPass, GpuError> {
     use vk::{AccessFlags as A, PipelineStageFlags as S};
-    let layout = vk::ImageLayout::TRANSFER_SRC_OPTIMAL;
+    let (load, from, to) = match ground {
+        Ground::Picture => {
+            let layout = vk::ImageLayout::TRANSFER_SRC_OPTIMAL;
+            (vk::AttachmentLoadOp::LOAD, layout, layout)
+        }
+        Ground::Black => {
+            let (from, to) = (vk::ImageLayout::UNDEFINED, vk::ImageLayout::COLOR_ATTACHMENT_OPTIMAL);
+            (vk::AttachmentLoadOp::CLEAR, from, to)
+        }
+    };
     let attachments = [vk::AttachmentDescription::default()
-        .format(FORMAT)
+        .format(format)
         .samples(ONE)
-        .load_op(vk::AttachmentLoadOp::LOAD)
+        .load_op(load)
         .store_op(vk::AttachmentStoreOp::STORE)
         .stencil_load_op(vk::AttachmentLoadOp::DONT_CARE)
         .stencil_store_op(vk::AttachmentStoreOp::DONT_CARE)
-        .initial_layout(layout)
-        .final_layout(layout)];
+        .initial_layout(from)
+        .final_layout(to)];
     let colors =
         [vk::AttachmentReference::default().attachment(0).layout(vk::ImageLayout::COLOR_ATTACHMENT_OPTIMAL)];
     let subpasses = [vk::SubpassDescription::default()

@@ -4,7 +4,7 @@ use super::depth_map::DepthMap;
 use super::device::Device;
 use super::error::{Doing, GpuError};
 use super::recorder::Recorder;
-use super::target::Target;
+use super::render_pass::Pass;
 use ash::vk;
 use std::sync::Arc;
 
@@ -99,17 +99,17 @@ pub struct Pipeline {
 }
 
 impl Pipeline {
-    /// Compiles a pipeline for `target`'s pass.
+    /// Compiles a pipeline for `pass`, of a target or one alike.
     ///
     /// # Errors
     /// The driver refuses, or lines are asked of a device that draws none.
     pub fn new(
         device: &Arc<Device>,
-        target: &Target,
+        pass: &Pass,
         layout: vk::PipelineLayout,
         info: &PipelineInfo<'_>,
     ) -> Result<Self, GpuError> {
-        Self::within(device, (target.pass, target.info.samples), layout, info)
+        Self::within(device, (pass.raw, pass.samples), layout, info)
     }
 
     /// The same for any pass, whose colour has so many samples.

@@ -7,6 +7,7 @@ use super::device::Device;
 use super::error::{Doing, GpuError};
 use super::target::{DEPTH_FORMAT, TargetInfo};
 use ash::vk;
+use std::sync::Arc;
 
 /// How a pass leaves its images.
 #[derive(Clone, Copy, Debug)]
@@ -22,7 +23,7 @@ pub(super) struct PassInfo {
 
 impl PassInfo {
     pub fn resolves(&self) -> bool {
-        self.target.samples != vk::SampleCountFlags::TYPE_1
+        self.target.resolves()
     }
 }
 
@@ -97,14 +98,32 @@ fn dependencies() -> [vk::SubpassDependency; 2] {
     ]
 }
 
-/// Creates the pass.
-///
-/// # Errors
-/// Out of memory, or depth samples are to be kept on a device that cannot resolve them.
-pub(super) fn create(device: &Device, info: &PassInfo) -> Result<vk::RenderPass, GpuError> {
-    let pass = if info.resolves() && info.depth_kept { second(device, info) } else { first(device, info) }?;
-    device.name(pass, "ocean pass");
-    Ok(pass)
+/// What pipelines are compiled for: a target's pass. They are good for every target that was made alike, of any size, and a pass
+/// may outlive its target.
+pub struct Pass {
+    pub(super) raw: vk::RenderPass,
+    pub(super) samples: vk::SampleCountFlags,
+    device: Arc<Device>,
+}
+
+impl Pass {
+    /// Creates the pass.
+    ///
+    /// # Errors
+    /// Out of memory, or depth samples are to be kept on a device that cannot resolve them.
+    pub(super) fn new(device: &Arc<Device>, info: &PassInfo) -> Result<Self, GpuError> {
+        let raw =
+            if info.resolves() && info.depth_kept { second(device, info) } else { first(device, info) }?;
+        device.name(raw, "ocean pass");
+        Ok(Self { raw, samples: info.target.samples, device: Arc::clone(device) })
+    }
+}
+
+impl Drop for Pass {
+    fn drop(&mut self) {
+        // SAFETY: frames that use it have ended when the targets and pipelines that share it go.
+        unsafe { self.device.raw.destroy_render_pass(self.raw, None) };
+    }
 }
 
 /// The density map's place, last of all attachments.

@@ -8,7 +8,7 @@ use super::device::Device;
 use super::error::{Doing, GpuError};
 use super::image::{Image, ImageInfo};
 use super::recorder::Recorder;
-use super::render_pass::{self, PassInfo};
+use super::render_pass::{Pass, PassInfo};
 use ash::vk;
 use std::sync::Arc;
 
@@ -32,6 +32,11 @@ impl TargetInfo {
     /// A bit for each view.
     pub(super) const fn view_mask(&self) -> u32 {
         (1 << self.views) - 1
+    }
+
+    /// Whether samples become one colour in the pass.
+    pub(super) fn resolves(&self) -> bool {
+        self.samples != vk::SampleCountFlags::TYPE_1
     }
 
     /// Bytes of one finished image, all views, at `texel` bytes a texel.
@@ -66,8 +71,8 @@ pub struct Turn {
 pub struct Target {
     /// What it was made as.
     pub info: TargetInfo,
-    /// The pass.
-    pub pass: vk::RenderPass,
+    /// Made with the images.
+    pass: Arc<Pass>,
     /// One for each pair of colour and depth, depths together.
     framebuffers: Vec<vk::Framebuffer>,
     depths: usize,
@@ -96,8 +101,9 @@ impl Target {
         let color = finished.raw;
         let layout = vk::ImageLayout::TRANSFER_SRC_OPTIMAL;
         let lent = Lent { colors: &[color], ..Lent::default() };
-        let mut target = Self::begin_new(device, info, Some(finished));
-        target.make(&lent, layout)?;
+        let mut target = Self::begin_new(device, info, &lent, layout)?;
+        target.finished = Some(finished);
+        target.make(&lent)?;
         Ok(target)
     }
 
@@ -107,34 +113,40 @@ impl Target {
     /// Out of memory, a size beyond the device's limit, or depth is wanted of a device that cannot resolve it.
     pub fn over(device: &Arc<Device>, info: TargetInfo, lent: &Lent<'_>) -> Result<Self, GpuError> {
         check_limits(device, info)?;
-        let mut target = Self::begin_new(device, info, None);
-        target.make(lent, vk::ImageLayout::COLOR_ATTACHMENT_OPTIMAL)?;
+        let mut target = Self::begin_new(device, info, lent, vk::ImageLayout::COLOR_ATTACHMENT_OPTIMAL)?;
+        target.make(lent)?;
         Ok(target)
     }
 
-    fn begin_new(device: &Arc<Device>, info: TargetInfo, finished: Option<Image>) -> Self {
-        Self {
-            info,
-            pass: vk::RenderPass::null(),
-            framebuffers: Vec::new(),
-            depths: 1,
-            finished,
-            _transient: Vec::new(),
-            views: Vec::new(),
-            device: Arc::clone(device),
-        }
-    }
-
-    fn make(&mut self, lent: &Lent<'_>, finished: vk::ImageLayout) -> Result<(), GpuError> {
-        let device = Arc::clone(&self.device);
-        let info = self.info;
+    /// The pass alone, which leaves finished colours `finished`.
+    fn begin_new(
+        device: &Arc<Device>,
+        info: TargetInfo,
+        lent: &Lent<'_>,
+        finished: vk::ImageLayout,
+    ) -> Result<Self, GpuError> {
         let pass = PassInfo {
             target: info,
             finished,
             depth_kept: !lent.depths.is_empty(),
             density_map: !lent.density_maps.is_empty(),
         };
-        self.pass = render_pass::create(&device, &pass)?;
+        Ok(Self {
+            info,
+            pass: Arc::new(Pass::new(device, &pass)?),
+            framebuffers: Vec::new(),
+            depths: 1,
+            finished: None,
+            _transient: Vec::new(),
+            views: Vec::new(),
+            device: Arc::clone(device),
+        })
+    }
+
+    fn make(&mut self, lent: &Lent<'_>) -> Result<(), GpuError> {
+        let device = Arc::clone(&self.device);
+        let info = self.info;
+        let resolves = info.resolves();
         let transient = vk::ImageUsageFlags::TRANSIENT_ATTACHMENT;
         let color = vk::ImageUsageFlags::COLOR_ATTACHMENT | transient;
         let depth = vk::ImageUsageFlags::DEPTH_STENCIL_ATTACHMENT | transient;
@@ -144,10 +156,10 @@ impl Target {
             Image::new(&device, name, info)
         };
         // Samples where they are resolved, and a depth wherever nobody lent one to be written directly.
-        if pass.resolves() {
+        if resolves {
             self._transient.push(image("samples", info.format, color)?);
         }
-        if pass.resolves() || !pass.depth_kept {
+        if resolves || lent.depths.is_empty() {
             self._transient.push(image("depth", DEPTH_FORMAT, depth)?);
         }
         let colors = self.lend(lent.colors, info.format, info.views)?;
@@ -159,7 +171,7 @@ impl Target {
             for turn in 0..self.depths {
                 let depth = depths.get(turn);
                 let mut views: Vec<vk::ImageView> = self._transient.iter().map(|image| image.view).collect();
-                if pass.resolves() {
+                if resolves {
                     views.push(color);
                     views.extend(depth);
                 } else {
@@ -168,7 +180,7 @@ impl Target {
                 }
                 views.extend(densities.get(index));
                 let create = vk::FramebufferCreateInfo::default()
-                    .render_pass(self.pass)
+                    .render_pass(self.pass.raw)
                     .attachments(&views)
                     .width(info.extent.width)
                     .height(info.extent.height)
@@ -215,13 +227,18 @@ impl Target {
             vk::ClearValue { depth_stencil: vk::ClearDepthStencilValue { depth: 0.0, stencil: 0 } },
         ];
         let framebuffer = self.framebuffers[turn.color * self.depths + turn.depth];
-        commands.begin_pass((self.pass, framebuffer), self.info.extent, &clears);
+        commands.begin_pass((self.pass.raw, framebuffer), self.info.extent, &clears);
     }
 
     /// Ends the pass; a finished image of our own is then in `TRANSFER_SRC_OPTIMAL`.
     pub fn end(&self, commands: Recorder<'_>) {
         // SAFETY: the pass begun by `begin` is open.
         unsafe { self.device.raw.cmd_end_render_pass(commands.raw) };
+    }
+
+    /// What pipelines that draw into it are compiled for.
+    pub const fn pass(&self) -> &Arc<Pass> {
+        &self.pass
     }
 
     /// The device it is on.
@@ -257,7 +274,6 @@ impl Drop for Target {
             for &view in &self.views {
                 self.device.raw.destroy_image_view(view, None);
             }
-            self.device.raw.destroy_render_pass(self.pass, None);
         }
     }
 }

@@ -7,6 +7,9 @@ use crate::xr::vendor::Joints;
 use crate::xr::{self, HANDS, Hand};
 use glam::DVec3;
 
+/// Of the hands, in their order.
+const SIDES: [draw::Hand; HANDS] = [draw::Hand::Left, draw::Hand::Right];
+
 /// A frame's solids; its memory is used again by the next.
 pub struct Afloat {
     solids: Vec<Solid>,
@@ -49,12 +52,26 @@ impl Afloat {
         joints: &[Option<Joints>; HANDS],
         placed: impl Fn(xr::Pose) -> Pose,
     ) {
-        for (side, which) in [draw::Hand::Left, draw::Hand::Right].into_iter().enumerate() {
+        for (side, which) in SIDES.into_iter().enumerate() {
             if let Some(grip) = hands[side].grip {
                 self.solids.extend(draw::hand(placed(grip), which));
             } else if let Some(joints) = &joints[side] {
                 let balls = joints.iter().map(|&(pose, radius)| draw::joint(placed(pose), radius, which));
                 self.solids.extend(balls);
+            }
+        }
+    }
+
+    /// Adds rays of these lengths, metres, from where the hands point, left and right.
+    pub fn rays(
+        &mut self,
+        hands: &[Hand; HANDS],
+        lengths: &[Option<f32>; HANDS],
+        placed: impl Fn(xr::Pose) -> Pose,
+    ) {
+        for (side, which) in SIDES.into_iter().enumerate() {
+            if let (Some(aim), Some(length)) = (hands[side].aim, lengths[side]) {
+                self.solids.push(draw::ray(placed(aim), length, which));
             }
         }
     }

@@ -40,6 +40,8 @@ pub struct Companion {
     screenshots: Screenshots,
     /// A key asked for a screenshot.
     keep: bool,
+    /// A key asked for the panel, or for its end.
+    panel: bool,
     log: FrameLog,
     begun: Instant,
     frames: u64,
@@ -105,6 +107,7 @@ impl Companion {
             device: None,
             screenshots: Screenshots::default(),
             keep: false,
+            panel: false,
             log,
             begun: Instant::now(),
             frames: 0,
@@ -160,6 +163,7 @@ impl Guest for Companion {
                 match key {
                     Key::End => self.settings.stop.store(true, Ordering::Relaxed),
                     Key::Screenshot => self.keep = true,
+                    Key::Panel => self.panel ^= true,
                     _ => {}
                 }
             }
@@ -213,6 +217,10 @@ impl Guest for Companion {
             window.detach();
         }
         self.device = None;
+    }
+
+    fn asks_for_panel(&mut self) -> bool {
+        std::mem::take(&mut self.panel)
     }
 
     fn frame(&mut self, frame: &HeadsetFrame<'_>) -> Result<(), HostError> {

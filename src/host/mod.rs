@@ -3,6 +3,7 @@
 mod afloat;
 #[cfg(target_os = "android")]
 pub mod android;
+mod authoring;
 #[cfg(not(target_os = "android"))]
 mod companion;
 mod cpu;
@@ -19,6 +20,7 @@ pub mod view;
 mod window;
 
 pub use afloat::marker;
+pub use authoring::{AuthoringSettings, Fit};
 #[cfg(not(target_os = "android"))]
 pub use companion::{Companion, CompanionSettings};
 pub use cpu::cpu_time;

@@ -2,7 +2,7 @@
 
 use super::HostError;
 use crate::draw::{DrawCounts, HiddenMesh, Look, Moment, Renderer, SkyMap};
-use crate::gpu::{Commands, Device, FRAMES_IN_FLIGHT, GpuError, Recorder, Target, Turn};
+use crate::gpu::{Commands, Device, FRAMES_IN_FLIGHT, GpuError, Pass, Recorder, Target, Turn};
 use crate::jobs::Workers;
 use crate::lod::Quality;
 use crate::scene::Scene;
@@ -19,18 +19,18 @@ pub struct Painter {
 }
 
 impl Painter {
-    /// A renderer of `scene`, seen as `look`, for targets like `target`.
+    /// A renderer of `scene`, seen as `look`, for targets of `pass`.
     ///
     /// # Errors
     /// Out of memory, or the device cannot draw this look.
     pub fn new(
         device: &Arc<Device>,
-        target: &Target,
+        pass: &Pass,
         scene: &Scene,
         sky: &SkyMap,
         look: Look,
     ) -> Result<Self, HostError> {
-        let renderer = Renderer::new(device, target, scene, sky, look)?;
+        let renderer = Renderer::new(device, pass, scene, sky, look)?;
         let commands = (0..FRAMES_IN_FLIGHT)
             .map(|i| Commands::new(device, &format!("frame {i}")))
             .collect::<Result<_, GpuError>>()?;
@@ -106,7 +106,7 @@ impl Painter {
     /// As [`Renderer::prepare_motion`], or the device was lost.
     pub fn prepare_motion(&mut self, target: &Target) -> Result<(), HostError> {
         self.wait_all()?;
-        Ok(self.renderer.prepare_motion(&self.device, target)?)
+        Ok(self.renderer.prepare_motion(&self.device, target.pass())?)
     }
 
     /// Draws with another preset of the quadtree from the next frame on.
@@ -119,7 +119,6 @@ impl Painter {
     }
 
     /// Draws `scene` from the next frame on, which differs in colours, exposure and what floats from the one it was made for.
-    #[cfg(not(target_os = "android"))]
     pub fn repaint(&mut self, scene: &Scene, sky: &SkyMap, rms_height: f64) {
         self.renderer.repaint(scene, sky, rms_height);
     }
@@ -164,7 +163,7 @@ pub fn start<T: AsRef<Target>>(
         let sky = scope.spawn(|| SkyMap::new(&scene.sky));
         let (device, opened) = open()?;
         let sky = joined(sky.join())??;
-        let painter = Painter::new(&device, opened.as_ref(), scene, &sky, look)?;
+        let painter = Painter::new(&device, opened.as_ref().pass(), scene, &sky, look)?;
         Ok(Started { sea: joined(sea.join())??, sky, painter, opened })
     })
 }

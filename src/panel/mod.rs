@@ -6,6 +6,7 @@
 
 mod facts;
 mod plots;
+mod pointer;
 mod presets;
 mod quick;
 mod sections;
@@ -13,6 +14,7 @@ mod widgets;
 
 pub use facts::Facts;
 pub use plots::{Measured, SECTION_POINTS, SECTION_STEP};
+pub use pointer::draw_pointer;
 pub use presets::{Preset, presets};
 pub use quick::{Knob, Quick};
 
@@ -239,17 +241,25 @@ impl Panel {
 
     /// Shows it at the right of `ui`.
     pub fn show(&mut self, ui: &mut Ui) {
-        self.places.clear();
         self.shortcuts(ui);
-        egui::Panel::right("swell panel").default_size(WIDTH).size_range(260.0..=900.0).show(ui, |ui| {
-            self.head(ui);
-            ui.separator();
-            egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
-                self.show_presets(ui);
-                self.show_readouts(ui);
-                self.show_sections(ui);
-                self.plots.show(ui, &self.facts);
-            });
+        let side = egui::Panel::right("swell panel").default_size(WIDTH).size_range(260.0..=900.0);
+        side.show(ui, |ui| self.contents(ui));
+    }
+
+    /// Shows it in all of `ui`.
+    pub fn fill(&mut self, ui: &mut Ui) {
+        egui::CentralPanel::default().show(ui, |ui| self.contents(ui));
+    }
+
+    fn contents(&mut self, ui: &mut Ui) {
+        self.places.clear();
+        self.head(ui);
+        ui.separator();
+        egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+            self.show_presets(ui);
+            self.show_readouts(ui);
+            self.show_sections(ui);
+            self.plots.show(ui, &self.facts);
         });
         self.sought = None;
         if !ui.input(|input| input.pointer.any_down()) {

@@ -148,6 +148,15 @@ impl Raft {
         &self.settings
     }
 
+    /// Goes on with other `settings`, where it is; the next step puts it on the water anew.
+    ///
+    /// # Errors
+    /// As [`Raft::new`].
+    pub fn refit(&mut self, settings: &RaftSettings) -> Result<(), RaftError> {
+        *self = Self::new(settings, self.at, self.heading)?;
+        Ok(())
+    }
+
     /// Moves the raft over the water by world (x, z) `by`, metres; the next step feels the water it comes to.
     pub fn glide(&mut self, by: DVec2) {
         if by.is_finite() {

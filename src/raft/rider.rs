@@ -67,6 +67,14 @@ impl Rider {
         })
     }
 
+    /// Goes on with other `settings`, in the same place and looking the same way.
+    ///
+    /// # Errors
+    /// As [`Raft::new`].
+    pub fn refit(&mut self, settings: &RaftSettings) -> Result<(), RaftError> {
+        self.raft.refit(settings)
+    }
+
     /// One frame: turns, glides, and rides the sea of `maps` to `time`, as [`Raft::step`] does. Where that puts the raft on
     /// the water anew, the rider stands still.
     pub fn step(&mut self, maps: &SeaMaps, time: f64, input: &Input) {

@@ -36,7 +36,6 @@ impl Address {
     }
 
     /// Names and numbers, from the top.
-    #[cfg(not(target_os = "android"))]
     pub(super) fn steps(&self) -> &[(String, Option<usize>)] {
         &self.0
     }

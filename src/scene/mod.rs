@@ -15,12 +15,10 @@ use std::path::{Path, PathBuf};
 
 mod address;
 mod assemble;
-#[cfg(not(target_os = "android"))]
 mod document;
 mod draft;
 mod error;
 mod field;
-#[cfg(not(target_os = "android"))]
 mod history;
 mod key;
 mod models;
@@ -32,11 +30,9 @@ mod shadows;
 mod tessellation;
 
 pub use address::Address;
-#[cfg(not(target_os = "android"))]
 pub use document::Document;
 pub use error::{Place, SceneError};
 pub use field::{Field, FieldKind, Part, Value, parts};
-#[cfg(not(target_os = "android"))]
 pub use history::History;
 pub use reference::reference;
 pub use shadows::{ShadowSettings, Shadows};

@@ -15,6 +15,8 @@ pub enum Act {
     Stick,
     /// Back to the middle of the raft, looking ahead.
     Recentre,
+    /// Show the panel, or hide it.
+    Panel,
     /// Vibrate.
     Buzz,
 }
@@ -29,6 +31,8 @@ pub struct Profile {
     pub both: &'static [(Act, &'static str)],
     /// The same for the left hand alone.
     pub left: &'static [(Act, &'static str)],
+    /// The same for the right hand alone.
+    pub right: &'static [(Act, &'static str)],
 }
 
 const POSES: [(Act, &str); 2] = [(Act::Grip, "input/grip/pose"), (Act::Aim, "input/aim/pose")];
@@ -44,38 +48,45 @@ static TOUCH: &[(Act, &str)] = &[
     (Act::Buzz, "output/haptic"),
 ];
 
+/// What is on the left one of those alone.
+static TOUCH_LEFT: &[(Act, &str)] = &[(Act::Recentre, "input/menu/click"), (Act::Panel, "input/y/click")];
+
 /// All of them.
 pub static PROFILES: &[Profile] = &[
     Profile {
         path: "/interaction_profiles/khr/simple_controller",
         extension: None,
-        both: &[
-            POSES[0],
-            POSES[1],
-            (Act::Go, "input/select/click"),
-            (Act::Recentre, "input/menu/click"),
-            (Act::Buzz, "output/haptic"),
-        ],
-        left: &[],
+        both: &[POSES[0], POSES[1], (Act::Go, "input/select/click"), (Act::Buzz, "output/haptic")],
+        left: &[(Act::Panel, "input/menu/click")],
+        right: &[(Act::Recentre, "input/menu/click")],
     },
     Profile {
         path: "/interaction_profiles/oculus/touch_controller",
         extension: None,
         both: TOUCH,
-        left: &[(Act::Recentre, "input/menu/click")],
+        left: TOUCH_LEFT,
+        right: &[],
     },
     Profile {
         path: "/interaction_profiles/meta/touch_controller_plus",
         extension: Some("XR_META_touch_controller_plus"),
         both: TOUCH,
-        left: &[(Act::Recentre, "input/menu/click")],
+        left: TOUCH_LEFT,
+        right: &[],
     },
-    Profile { path: "/interaction_profiles/valve/index_controller", extension: None, both: TOUCH, left: &[] },
+    Profile {
+        path: "/interaction_profiles/valve/index_controller",
+        extension: None,
+        both: TOUCH,
+        left: &[(Act::Panel, "input/b/click")],
+        right: &[],
+    },
     Profile {
         path: "/interaction_profiles/ext/hand_interaction_ext",
         extension: Some("XR_EXT_hand_interaction"),
         both: &[POSES[0], POSES[1], (Act::Go, "input/pinch_ext/value"), (Act::Hold, "input/grasp_ext/value")],
         left: &[],
+        right: &[],
     },
 ];
 

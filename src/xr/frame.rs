@@ -22,6 +22,18 @@ pub struct Layer<'a> {
     pub depth: Option<(&'a Swapchain, DepthRange)>,
     /// What moves, where the runtime makes frames between frames of it.
     pub motion: Option<Motion<'a>>,
+    /// What stands before all that.
+    pub quad: Option<Quad<'a>>,
+}
+
+/// A rectangle in the space that poses are in, seen by both eyes.
+pub struct Quad<'a> {
+    /// The latest image of it that was given back.
+    pub color: &'a Swapchain,
+    /// Of its middle; it faces +Z.
+    pub pose: Pose,
+    /// Width and height, metres.
+    pub size: [f32; 2],
 }
 
 /// Motion vectors for space warp.
@@ -82,13 +94,25 @@ impl Session {
             view_count: VIEWS as u32,
             views: views.as_ptr(),
         };
-        let layers = [std::ptr::from_ref(&projection).cast::<sys::CompositionLayerBaseHeader>()];
+        let quad = layer.and_then(|layer| layer.quad.as_ref()).map(|quad| sys::CompositionLayerQuad {
+            ty: sys::CompositionLayerQuad::TYPE,
+            next: std::ptr::null(),
+            layer_flags: sys::CompositionLayerFlags::EMPTY,
+            space: self.base().as_raw(),
+            eye_visibility: xr::EyeVisibility::BOTH,
+            sub_image: quad.color.sub_image(0),
+            pose: quad.pose.raw(),
+            size: xr::Extent2Df { width: quad.size[0], height: quad.size[1] },
+        });
+        // In the order in which they cover each other.
+        let header = std::ptr::from_ref(&projection).cast::<sys::CompositionLayerBaseHeader>();
+        let layers = [header, quad.as_ref().map_or(std::ptr::null(), |quad| std::ptr::from_ref(quad).cast())];
         let info = sys::FrameEndInfo {
             ty: sys::FrameEndInfo::TYPE,
             next: std::ptr::null(),
             display_time: time.raw,
             environment_blend_mode: self.runtime.blend,
-            layer_count: u32::from(layer.is_some()),
+            layer_count: u32::from(layer.is_some()) + u32::from(quad.is_some()),
             layers: layers.as_ptr(),
         };
         let _queue = self.device.queue();
@@ -127,16 +151,12 @@ fn warp_info(
     next: *const std::ffi::c_void,
 ) -> sys::CompositionLayerSpaceWarpInfoFB {
     use sys::CompositionLayerSpaceWarpInfoFlagsFB as Flags;
-    let Pose { position: [x, y, z], orientation: [i, j, k, w] } = motion.step.pose;
     sys::CompositionLayerSpaceWarpInfoFB {
         ty: sys::CompositionLayerSpaceWarpInfoFB::TYPE,
         next,
         layer_flags: if motion.step.jumped { Flags::FRAME_SKIP } else { Flags::EMPTY },
         motion_vector_sub_image: motion.vectors.sub_image(view),
-        app_space_delta_pose: xr::Posef {
-            orientation: xr::Quaternionf { x: i, y: j, z: k, w },
-            position: xr::Vector3f { x, y, z },
-        },
+        app_space_delta_pose: motion.step.pose.raw(),
         depth_sub_image: motion.depth.sub_image(view),
         min_depth: 0.0,
         max_depth: 1.0,

@@ -26,6 +26,8 @@ pub struct Hand {
     pub stick: [f32; 2],
     /// Recentring was asked for since the frame before.
     pub recentre: bool,
+    /// The panel was asked for, or away, since the frame before.
+    pub panel: bool,
 }
 
 /// The action set and its spaces.
@@ -38,6 +40,7 @@ pub struct Input {
     hold: xr::Action<f32>,
     stick: xr::Action<xr::Vector2f>,
     recentre: xr::Action<bool>,
+    panel: xr::Action<bool>,
     buzz: xr::Action<xr::Haptic>,
     hands: [xr::Path; HANDS],
     set: xr::ActionSet,
@@ -61,6 +64,7 @@ impl Input {
         let hold = set.create_action("hold", "Hold", &hands).doing(doing)?;
         let stick = set.create_action("stick", "Glide and turn", &hands).doing(doing)?;
         let recentre = set.create_action("recentre", "Back to the middle", &hands).doing(doing)?;
+        let panel = set.create_action("panel", "Show the panel, or hide it", &hands).doing(doing)?;
         let buzz = set.create_action("buzz", "Vibrate", &hands).doing(doing)?;
         let space = |action: &xr::Action<xr::Posef>, hand: usize| {
             action.create_space(&session.raw, hands[hand], xr::Posef::IDENTITY).doing("making a hand's space")
@@ -74,6 +78,7 @@ impl Input {
             hold,
             stick,
             recentre,
+            panel,
             buzz,
             hands,
             set,
@@ -91,7 +96,8 @@ impl Input {
         let doing = "suggesting bindings";
         let mut bindings = Vec::new();
         for (hand, path) in PATHS.iter().enumerate() {
-            for (act, component) in profile.both.iter().chain(if hand == 0 { profile.left } else { &[] }) {
+            let own = if hand == 0 { profile.left } else { profile.right };
+            for (act, component) in profile.both.iter().chain(own) {
                 let path = instance.string_to_path(&format!("{path}/{component}")).doing(doing)?;
                 bindings.push(match act {
                     Act::Grip => xr::Binding::new(&self.grip, path),
@@ -100,6 +106,7 @@ impl Input {
                     Act::Hold => xr::Binding::new(&self.hold, path),
                     Act::Stick => xr::Binding::new(&self.stick, path),
                     Act::Recentre => xr::Binding::new(&self.recentre, path),
+                    Act::Panel => xr::Binding::new(&self.panel, path),
                     Act::Buzz => xr::Binding::new(&self.buzz, path),
                 });
             }
@@ -134,14 +141,18 @@ impl Input {
             Ok(if state.is_active { state.current_state } else { 0.0 })
         };
         let stick = self.stick.state(raw, path).doing(doing)?;
-        let recentre = self.recentre.state(raw, path).doing(doing)?;
+        let pressed = |action: &xr::Action<bool>| -> Result<bool, XrError> {
+            let state = action.state(raw, path).doing(doing)?;
+            Ok(state.is_active && state.changed_since_last_sync && state.current_state)
+        };
         Ok(Hand {
             grip: locate(&self.grips[hand])?,
             aim: locate(&self.aims[hand])?,
             go: number(&self.go)?,
             hold: number(&self.hold)?,
             stick: if stick.is_active { [stick.current_state.x, stick.current_state.y] } else { [0.0; 2] },
-            recentre: recentre.is_active && recentre.changed_since_last_sync && recentre.current_state,
+            recentre: pressed(&self.recentre)?,
+            panel: pressed(&self.panel)?,
         })
     }
 

@@ -20,7 +20,7 @@ pub mod vendor;
 mod vulkan;
 
 pub use error::XrError;
-pub use frame::{DepthRange, Layer, Motion, SpaceStep};
+pub use frame::{DepthRange, Layer, Motion, Quad, SpaceStep};
 pub use input::{HANDS, Hand, Input};
 pub use lifecycle::{Demand, Lifecycle};
 pub use notice::Notice;

@@ -29,6 +29,11 @@ impl Pose {
         let (p, q) = (pose.position, pose.orientation);
         Self { position: [p.x, p.y, p.z], orientation: [q.x, q.y, q.z, q.w] }
     }
+
+    pub(super) const fn raw(&self) -> xr::Posef {
+        let Self { position: [x, y, z], orientation: [i, j, k, w] } = *self;
+        xr::Posef { orientation: xr::Quaternionf { x: i, y: j, z: k, w }, position: xr::Vector3f { x, y, z } }
+    }
 }
 
 /// One view of a frame.

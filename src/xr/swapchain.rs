@@ -39,6 +39,18 @@ pub enum Usage {
     Motion,
     /// Depth for space warp.
     MotionDepth,
+    /// Colour of a panel: one layer that both eyes see, drawn as it is encoded.
+    Panel,
+}
+
+impl Usage {
+    /// Layers of an image.
+    const fn layers(self) -> u32 {
+        match self {
+            Self::Panel => 1,
+            Self::Color { .. } | Self::Depth | Self::Motion | Self::MotionDepth => super::VIEWS as u32,
+        }
+    }
 }
 
 /// `XrVulkanSwapchainCreateInfoMETA` as the header has it: Vulkan's flags have 32 bits, and `openxr-sys` 0.14 gives them 64.
@@ -50,7 +62,7 @@ struct VulkanSwapchainCreateInfo {
     additional_usage_flags: u32,
 }
 
-/// A swapchain of array images, one layer a view.
+/// A swapchain of array images, one layer a view (a panel has one).
 ///
 /// Made with the raw functions where the `openxr` crate's safe ones cannot chain structures, or take an expired wait for a
 /// finished one.
@@ -84,6 +96,9 @@ impl Swapchain {
             Usage::MotionDepth => {
                 xr::SwapchainUsageFlags::DEPTH_STENCIL_ATTACHMENT | xr::SwapchainUsageFlags::SAMPLED
             }
+            Usage::Panel => {
+                xr::SwapchainUsageFlags::COLOR_ATTACHMENT | xr::SwapchainUsageFlags::MUTABLE_FORMAT
+            }
         };
         let meta = VulkanSwapchainCreateInfo {
             ty: sys::VulkanSwapchainCreateInfoMETA::TYPE,
@@ -110,7 +125,7 @@ impl Swapchain {
             width: info.size[0],
             height: info.size[1],
             face_count: 1,
-            array_size: super::VIEWS as u32,
+            array_size: info.usage.layers(),
             mip_count: 1,
         };
         let instance = session.runtime.instance.clone();
@@ -137,6 +152,7 @@ impl Swapchain {
             Usage::Depth => "depth",
             Usage::Motion => "motion",
             Usage::MotionDepth => "motion's depth",
+            Usage::Panel => "panel",
         };
         let _unnamed = swapchain.raw.set_name(name);
         swapchain.list_images(&instance)?;

@@ -117,6 +117,7 @@ pub fn settings(frames: u64) -> HeadsetSettings {
         thread_hints: true,
         space_warp: false,
         fallback: None,
+        authoring: None,
     }
 }
 

@@ -7,14 +7,16 @@
 mod log;
 mod watch;
 
+use super::authoring::{AuthoringSettings, Fit};
 use super::headset::{HeadsetSettings, headset};
-use super::standalone::folders::Folders;
+use super::standalone::folders::{Folders, Found};
 use super::standalone::model::{Defaults, defaults};
 use super::standalone::settings::{Chosen, Kept};
 use crate::draw::Look;
 use crate::gpu::Validation;
 use crate::host::HostError;
 use crate::host::fallback::Ladder;
+use crate::lod::Quality;
 use crate::scene::{Scene, SceneError};
 use crate::xr::Platform;
 use android_activity::AndroidApp;
@@ -65,11 +67,18 @@ fn run(app: &AndroidApp) -> Result<(), EntryError> {
             Chosen::default()
         })
     });
-    let mut scene = found.scene;
-    defaults.limit(&mut scene);
-    scene.lod.quality = chosen.quality.map_or(scene.lod.quality, Into::into);
+    let quality: Option<Quality> = chosen.quality.map(Into::into);
+    let fit = Fit::new(move |scene| {
+        defaults.limit(scene);
+        scene.lod.quality = quality.unwrap_or(scene.lod.quality);
+    });
+    let file = Some(folders.authored(&found));
+    let Found { mut scene, text, .. } = found;
+    fit.apply(&mut scene);
+    let authoring = AuthoringSettings { text, file, fit };
     let kept = folders.kept();
-    let settings = settings(app, &scene, defaults, &chosen, folders.cache(), &name, &kept);
+    let mut settings = settings(app, &scene, defaults, &chosen, folders.cache(), &name, &kept);
+    settings.authoring = Some(authoring);
     let mut watch = Watch::new(app.clone(), kept, name);
     if !watch.is_shown() {
         return Ok(());
@@ -116,6 +125,7 @@ fn settings(
         thread_hints: defaults.thread_hints,
         space_warp: false,
         fallback: chosen.fallback.unwrap_or(true).then_some(level),
+        authoring: None,
     }
 }
 

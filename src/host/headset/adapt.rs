@@ -29,6 +29,15 @@ impl Adapt {
         }
     }
 
+    /// The scene asks for another quality from now on. The level is of the same number, and so are the views' sizes.
+    pub fn refit(&mut self, scene: &Scene) {
+        let ladder = Ladder::new(scene.lod.quality);
+        self.best = ladder.level(0);
+        if let Some(fallback) = &mut self.fallback {
+            *fallback = Fallback::new(ladder, fallback.number());
+        }
+    }
+
     /// What frames are made on.
     pub fn level(&self) -> Level {
         self.fallback.as_ref().map_or(self.best, Fallback::level)
@@ -63,7 +72,7 @@ impl Show<'_> {
     pub(super) fn use_level(&mut self, world: &mut World) -> Result<(), HostError> {
         let level = self.adapt.level();
         if level.quality != self.scene.lod.quality {
-            world.painter.set_quality(self.scene, level.quality)?;
+            world.painter.set_quality(&self.scene, level.quality)?;
         }
         self.sea.take_turns(level.in_turns);
         Ok(())
@@ -85,7 +94,7 @@ impl Show<'_> {
             stage.resize(self.settings, guest.looks(), to.scale)?;
         }
         if from.quality != to.quality {
-            world.painter.set_quality(self.scene, to.quality)?;
+            world.painter.set_quality(&self.scene, to.quality)?;
         }
         self.sea.take_turns(to.in_turns);
         self.adapt.interrupt();

@@ -7,8 +7,10 @@ mod adapt;
 mod eyes;
 mod leap;
 mod pace;
+mod panel;
 mod patience;
 mod ride;
+mod session;
 mod stage;
 mod views;
 mod visit;
@@ -18,21 +20,24 @@ mod world;
 pub use visit::{Drawn, Guest, HeadsetFrame};
 
 use super::HostError;
+use super::authoring::AuthoringSettings;
 use super::painter::{self, Painter};
 use crate::draw::{Look, SkyMap};
 use crate::gpu::Validation;
 use crate::scene::Scene;
 use crate::sea::SeaAhead;
 use crate::xr::vendor::FoveationLevel;
-use crate::xr::{Demand, EventDataBuffer, HANDS, Notice, Platform, XrError};
+use crate::xr::{Platform, XrError};
 use adapt::Adapt;
 use pace::Pace;
+use panel::HeadsetPanel;
 use patience::{Patience, find_runtime};
-use ride::{Person, Ride};
+use ride::Ride;
 use stage::Stage;
 use std::path::PathBuf;
+use std::sync::Arc;
 use std::thread;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 use world::{World, keep, open};
 
 /// What to show, and how.
@@ -66,6 +71,8 @@ pub struct HeadsetSettings {
     pub space_warp: bool,
     /// Draw less finely while frames run late, beginning on the level of this number: [`crate::host::fallback::Ladder`].
     pub fallback: Option<usize>,
+    /// The scene's text, for a panel that changes it; none without.
+    pub authoring: Option<AuthoringSettings>,
 }
 
 /// What a run came to.
@@ -87,8 +94,6 @@ pub struct HeadsetReport {
 
 /// How long between two looks at a session that does not run.
 const REST: Duration = Duration::from_millis(10);
-/// A session that was asked to end and does not is left.
-const PATIENCE: Duration = Duration::from_secs(3);
 /// Sessions lost one after the other without a frame in between.
 const MOST_LOSSES: u32 = 5;
 
@@ -101,14 +106,19 @@ pub fn headset(
     settings: &HeadsetSettings,
     guest: &mut dyn Guest,
 ) -> Result<HeadsetReport, HostError> {
-    let scene = &scene.in_headset();
-    let (report, ride) = (HeadsetReport::default(), Ride::new(scene)?);
-    let adapt = Adapt::new(scene, settings);
+    let scene = Arc::new(scene.in_headset());
+    let (report, ride) = (HeadsetReport::default(), Ride::new(&scene)?);
+    let adapt = Adapt::new(&scene, settings);
+    let panel = settings.authoring.as_ref().map(|authoring| {
+        let fit = authoring.fit.clone().then(|scene| *scene = scene.in_headset());
+        HeadsetPanel::new(&AuthoringSettings { fit, ..authoring.clone() })
+    });
+    let panel = panel.transpose()?;
     let mut patience = Patience::default();
     let (runtime, started) = loop {
         let Some(runtime) = find_runtime(settings, guest, &mut patience)? else { return Ok(report) };
         let open = || open(settings, &runtime, guest, adapt.level().scale);
-        match painter::start(scene, settings.look, settings.threads, None, open) {
+        match painter::start(&scene, settings.look, settings.threads, None, open) {
             Ok(started) => break (runtime, started),
             Err(error) => {
                 // What a guest made on the device must not outlive the runtime.
@@ -124,9 +134,9 @@ pub fn headset(
             }
         }
     };
-    let (sky, sea) = (started.sky, started.sea);
+    let (sky, sea) = (Arc::new(started.sky), started.sea);
     let world = World { painter: started.painter, runtime };
-    let mut show = Show { scene, settings, sky, sea, pace: Pace::default(), ride, adapt, report };
+    let mut show = Show { scene, settings, sky, sea, pace: Pace::default(), ride, adapt, panel, report };
     guest.level(show.adapt.number());
     let ended = show.go_on(world, started.opened, guest);
     // Whatever went wrong: what a guest made on the device must not outlive the runtime.
@@ -138,13 +148,14 @@ pub fn headset(
 
 /// What survives the runtime.
 struct Show<'a> {
-    scene: &'a Scene,
+    scene: Arc<Scene>,
     settings: &'a HeadsetSettings,
-    sky: SkyMap,
+    sky: Arc<SkyMap>,
     sea: SeaAhead,
     pace: Pace,
     ride: Ride,
     adapt: Adapt,
+    panel: Option<HeadsetPanel>,
     report: HeadsetReport,
 }
 
@@ -219,6 +230,9 @@ impl Show<'_> {
         let openxr = world.runtime.heard();
         let kept = keep(&world, stage.as_ref(), drew, guest);
         guest.closing();
+        if let Some(panel) = &mut self.panel {
+            panel.forget();
+        }
         // In this order: what is drawn into, what draws, the device with it, the runtime.
         drop(stage);
         drop(world);
@@ -244,8 +258,13 @@ impl Show<'_> {
                 }
                 opened => {
                     let (device, stage) = opened?;
-                    let painter =
-                        Painter::new(&device, stage.as_ref(), self.scene, &self.sky, self.settings.look)?;
+                    let painter = Painter::new(
+                        &device,
+                        stage.as_ref().pass(),
+                        &self.scene,
+                        &self.sky,
+                        self.settings.look,
+                    )?;
                     return Ok(Some((World { painter, runtime }, stage)));
                 }
             }
@@ -255,140 +274,5 @@ impl Show<'_> {
     /// Whether all was shown that was to be, or the guest wants the end.
     fn is_enough(&self, guest: &mut dyn Guest) -> bool {
         self.settings.frames.is_some_and(|frames| self.report.shown >= frames) || !guest.goes_on()
-    }
-
-    /// One session, from its first event to its last.
-    fn session(
-        &mut self,
-        world: &mut World,
-        kept: &mut Option<Stage>,
-        guest: &mut dyn Guest,
-    ) -> Result<Over, HostError> {
-        let stage = match kept {
-            Some(stage) => stage,
-            None => {
-                let scale = self.adapt.level().scale;
-                let device = world.painter.device();
-                kept.insert(Stage::new(&world.runtime, device, self.settings, guest.looks(), scale)?)
-            }
-        };
-        if self.settings.thread_hints {
-            stage.hint_threads(&self.sea.kernel_ids())?;
-        }
-        stage.show_hidden_area(&mut world.painter)?;
-        if let Some(warp) = &stage.warp {
-            world.painter.prepare_motion(warp.target())?;
-        }
-        self.pace.forget_clock();
-        self.adapt.interrupt();
-        let mut buffer = EventDataBuffer::new();
-        let mut asked_to_end: Option<Instant> = None;
-        loop {
-            while let Some(notice) = world.runtime.poll(&mut buffer)? {
-                match notice {
-                    Notice::State(state) => {
-                        let demand = stage.session.enter(state)?;
-                        guest.state(stage.session.lifecycle().name());
-                        match demand {
-                            Demand::Leave => return Ok(Over::Ended),
-                            Demand::Lost => return Ok(Over::Lost),
-                            Demand::Nothing | Demand::Begin | Demand::End => {}
-                        }
-                    }
-                    Notice::InstanceLossPending => {
-                        return Err(XrError::InstanceLost { doing: "listening for events" }.into());
-                    }
-                    Notice::MaskChanged => stage.show_hidden_area(&mut world.painter)?,
-                    Notice::ProfileChanged => stage.tell_hands()?,
-                    Notice::EventsLost(count) => eprintln!("the OpenXR runtime dropped {count} events"),
-                    Notice::Recentred { space, at } if space == stage.session.space => {
-                        stage.moves_at = Some(at);
-                    }
-                    Notice::Recentred { .. } | Notice::RefreshRate(_) | Notice::Performance => {}
-                }
-            }
-            let running = stage.session.lifecycle().is_running();
-            if self.is_enough(guest) {
-                match asked_to_end {
-                    None if running => {
-                        stage.session.request_exit()?;
-                        asked_to_end = Some(Instant::now());
-                    }
-                    None => return Ok(Over::Ended),
-                    Some(since) if since.elapsed() > PATIENCE => return Ok(Over::Ended),
-                    Some(_) => {}
-                }
-            }
-            if running {
-                let ending = asked_to_end.is_some();
-                self.frame(world, stage, guest, ending)?;
-                if let Some(change) = self.adapt.take() {
-                    self.change_level(change, world, stage, guest)?;
-                }
-            } else {
-                thread::sleep(REST);
-            }
-        }
-    }
-
-    /// Waits for a frame and shows it; an empty one while the session is `ending`, or nobody would see it.
-    fn frame(
-        &mut self,
-        world: &mut World,
-        stage: &mut Stage,
-        guest: &mut dyn Guest,
-        ending: bool,
-    ) -> Result<(), HostError> {
-        let time = stage.session.wait()?;
-        stage.session.begin()?;
-        let views = if time.should_render && !ending { stage.session.locate(time)? } else { None };
-        // The eyes, the images and the hands are seen to while the sea's workers are at it.
-        let seconds = match views {
-            Some(_) => self.pace.begin(&mut self.sea, time)?,
-            None => self.pace.time_of(time),
-        };
-        let turns = match views {
-            Some(_) => stage.acquire()?,
-            None => None,
-        };
-        let (Some(views), Some(turns)) = (views, turns) else {
-            stage.end_empty(time)?;
-            self.adapt.interrupt();
-            if !ending {
-                self.report.skipped += 1;
-            }
-            let state = stage.session.lifecycle().name();
-            return guest.frame(&HeadsetFrame { time: seconds, state, drawn: None });
-        };
-        let hands = stage.input.hands(&stage.session, time)?;
-        let joints = stage.joints(time, &hands)?;
-        let maps = self.pace.maps(&mut self.sea)?;
-        let moved = stage.has_moved(time);
-        let person = Person { views: &views, hands: &hands, joints: &joints, moved };
-        let ridden = self.ride.step(self.scene, maps, seconds, &person);
-        let index = self.report.shown as usize;
-        let (target, motion) = ((&stage.views.target, turns.views), stage.motion(turns));
-        let counts = world.painter.paint_moving(index, target, motion, ridden.moment(maps), |commands| {
-            stage.views.copy(commands, turns.views);
-        })?;
-        stage.release()?;
-        stage.end(time, ridden.step)?;
-        for hand in (0..HANDS).filter(|&hand| ridden.buzz[hand]) {
-            stage.input.buzz(&stage.session, hand, 0.5)?;
-        }
-        self.report.shown += 1;
-        self.adapt.frame(time);
-        let drawn = Drawn {
-            eyes: &ridden.eyes,
-            hands: &hands,
-            solids: ridden.solids,
-            vignette: ridden.vignette,
-            counts,
-            uploaded: world.painter.uploaded(),
-            sea: self.sea.last_step(),
-            picture: stage.picture(),
-        };
-        let state = stage.session.lifecycle().name();
-        guest.frame(&HeadsetFrame { time: seconds, state, drawn: Some(drawn) })
     }
 }

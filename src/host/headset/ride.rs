@@ -24,8 +24,10 @@ pub struct Ride {
 pub struct Person<'a> {
     /// Left, right.
     pub views: &'a [View; VIEWS],
-    /// Controllers.
+    /// Controllers, as far as they are the raft's business.
     pub hands: &'a [Hand; HANDS],
+    /// Lengths of rays from where they point, metres.
+    pub rays: &'a [Option<f32>; HANDS],
     /// Bare hands.
     pub joints: &'a [Option<Joints>; HANDS],
     /// Whether play space's origin has moved since the frame before.
@@ -64,9 +66,26 @@ impl Ride {
         Ok(Self { rider, afloat: Afloat::default(), leap: Leap::default() })
     }
 
+    /// Under the camera of `scene`, as at the start.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub fn begin(&mut self, scene: &Scene) -> Result<(), HostError> {
+        *self = Self::new(scene)?;
+        Ok(())
+    }
+
+    /// Goes on where it is, on the raft of `scene`.
+    ///
+    /// # Errors
+    /// Settings of the raft that are out of range.
+    pub fn refit(&mut self, scene: &Scene) -> Result<(), HostError> {
+        Ok(self.rider.refit(&scene.raft)?)
+    }
+
     /// Moves on to `time`, seconds, over the sea of `maps`.
     pub fn step(&mut self, scene: &Scene, maps: &SeaMaps, time: f64, person: &Person<'_>) -> Ridden<'_> {
-        let Person { views, hands, joints, moved } = *person;
+        let Person { views, hands, rays, joints, moved } = *person;
         let head = eyes::head(views);
         let before = self.rider.play_space().axes.z_axis;
         let (glide, turn) = (self.glide(head.yaw, hands), hands[1].stick);
@@ -100,6 +119,7 @@ impl Ride {
         self.afloat.raft(&scene.raft, self.rider.raft().pose(), between);
         let rider = &self.rider;
         self.afloat.hands(hands, joints, |pose| eyes::placed(rider, pose));
+        self.afloat.rays(hands, rays, |pose| eyes::placed(rider, pose));
         #[expect(clippy::cast_possible_truncation, reason = "0 to 1")]
         let vignette = self.rider.vignette() as f32;
         Ridden { eyes, buzz, solids: self.afloat.solids(), vignette, step }

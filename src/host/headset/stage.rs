@@ -1,6 +1,7 @@
 //! A session and the images that are drawn in it.
 
 use super::HeadsetSettings;
+use super::panel::{Board, Quad};
 use super::views::Views;
 use super::warp::Warp;
 use crate::draw::{HiddenMesh, NEAR};
@@ -20,6 +21,8 @@ pub(super) const IMAGE_PATIENCE: Duration = Duration::from_millis(500);
 
 /// In the order they are dropped: views of images before the images, all before the session.
 pub struct Stage {
+    /// The panel's images, once it was shown.
+    pub quad: Option<Quad>,
     pub views: Views,
     pub warp: Option<Warp>,
     pub input: Input,
@@ -67,7 +70,7 @@ impl Stage {
         let refresh_rate = vendor::choose_refresh_rate(&session, settings.refresh_rate);
         let refresh_rate = optional("a chosen refresh rate", refresh_rate, None)?;
         let sustained = settings.sustained && optional("sustained clocks", vendor::sustain(&session), false)?;
-        Ok(Self { views, warp, input, joints, refresh_rate, sustained, moves_at: None, session })
+        Ok(Self { quad: None, views, warp, input, joints, refresh_rate, sustained, moves_at: None, session })
     }
 
     /// Pixels of a view.
@@ -192,30 +195,28 @@ impl Stage {
         Ok(Some(Turns { views, motion }))
     }
 
-    /// Where the frame's motion goes, if it is to be drawn.
-    pub fn motion(&self, turns: Turns) -> Option<(&Target, Turn)> {
-        Some((self.warp.as_ref()?.target(), turns.motion?))
-    }
-
     /// Gives the images back, drawn.
     ///
     /// # Errors
     /// The session or the runtime has gone.
     pub fn release(&mut self) -> Result<(), XrError> {
         self.views.release()?;
+        self.quad.as_mut().map_or(Ok(()), Quad::release)?;
         self.warp.as_mut().map_or(Ok(()), Warp::release)
     }
 
-    /// Ends the frame with what was drawn, and where its motion was drawn, with that and the `step` of play space.
+    /// Ends the frame with what was drawn, the panel where it stands on `board`, and where its motion was drawn, with that and the
+    /// `step` of play space.
     ///
     /// # Errors
     /// The session or the runtime has gone.
-    pub fn end(&mut self, time: FrameTime, step: SpaceStep) -> Result<(), XrError> {
+    pub fn end(&mut self, time: FrameTime, step: SpaceStep, board: Option<&Board>) -> Result<(), XrError> {
         let range = DepthRange { near: NEAR };
         let layer = Layer {
             color: &self.views.color,
             depth: self.views.depth.as_ref().map(|depth| (depth, range)),
             motion: self.warp.as_mut().and_then(|warp| warp.shown(range, step)),
+            quad: self.quad.as_ref().zip(board).and_then(|(quad, board)| quad.layer(board)),
         };
         self.session.end(time, Some(&layer))
     }

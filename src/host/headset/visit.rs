@@ -81,6 +81,11 @@ pub trait Guest {
     /// The device is about to go: whatever was made on it goes first.
     fn closing(&mut self) {}
 
+    /// Whether the panel is to be shown, or hidden, since the last call.
+    fn asks_for_panel(&mut self) -> bool {
+        false
+    }
+
     /// The session entered a state.
     fn state(&mut self, _name: &'static str) {}
 

@@ -1,6 +1,7 @@
 //! Where an app's files are, and which scene is shown.
 
 use crate::scene::{Scene, SceneError};
+use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The two folders that Android gives an app.
@@ -14,6 +15,8 @@ pub struct Folders {
 
 /// Name of a pushed scene.
 const SCENE: &str = "scene.toml";
+/// Name of a changed scene beside a pushed one that is wrong.
+const AUTHORED: &str = "authored.toml";
 /// Name of a person's settings.
 const SETTINGS: &str = "settings.toml";
 /// Name of what the app keeps by itself.
@@ -23,6 +26,8 @@ const KEPT: &str = "kept.toml";
 pub struct Found {
     /// The scene.
     pub scene: Scene,
+    /// The text it was read from.
+    pub text: String,
     /// Its file; nothing for the one that is built in.
     pub file: Option<PathBuf>,
     /// A pushed scene is wrong in this way.
@@ -53,12 +58,25 @@ impl Folders {
     pub fn scene(&self) -> Result<Found, SceneError> {
         let mut wrong = None;
         if let Some(file) = self.pushed(SCENE) {
-            match Scene::load(&file) {
-                Ok(scene) => return Ok(Found { scene, file: Some(file), wrong }),
+            let text = |scene| {
+                let read = fs::read_to_string(&file);
+                read.map(|text| (scene, text))
+                    .map_err(|source| SceneError::Read { path: file.clone(), source })
+            };
+            match Scene::load(&file).and_then(text) {
+                Ok((scene, text)) => return Ok(Found { scene, text, file: Some(file), wrong }),
                 Err(error) => wrong = Some(error),
             }
         }
-        Ok(Found { scene: Scene::flagship()?, file: None, wrong })
+        Ok(Found { scene: Scene::flagship()?, text: Scene::FLAGSHIP.to_owned(), file: None, wrong })
+    }
+
+    /// Where `found` is saved once it was changed: to its file, or to the one that the next run will find. One that is wrong
+    /// stays as it is.
+    pub fn authored(&self, found: &Found) -> PathBuf {
+        let name = if found.wrong.is_some() { AUTHORED } else { SCENE };
+        let folder = self.external.as_ref().unwrap_or(&self.internal);
+        found.file.clone().unwrap_or_else(|| folder.join(name))
     }
 
     /// The file of this name that was pushed, if one was.
@@ -70,7 +88,6 @@ impl Folders {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use std::fs;
 
     fn folders() -> (tempfile::TempDir, Folders) {
         let root = tempfile::tempdir().unwrap();
@@ -87,6 +104,7 @@ mod tests {
         let (_root, folders) = folders();
         let found = folders.scene().unwrap();
         assert!(found.file.is_none() && found.wrong.is_none());
+        assert_eq!(folders.authored(&found), folders.external.as_ref().unwrap().join("scene.toml"));
         assert_eq!(found.scene, Scene::flagship().unwrap());
         let nowhere = Folders { external: None, ..folders };
         assert_eq!(nowhere.scene().unwrap().scene, Scene::flagship().unwrap());
@@ -100,6 +118,8 @@ mod tests {
         fs::write(&file, "[sea]\nwind_speed = 5.0\n").unwrap();
         let found = folders.scene().unwrap();
         assert_eq!(found.file, Some(file.clone()));
+        assert_eq!(found.text, "[sea]\nwind_speed = 5.0\n");
+        assert_eq!(folders.authored(&found), file);
         assert_eq!(found.scene, Scene::load(file).unwrap());
     }
 
@@ -108,9 +128,10 @@ mod tests {
         let (root, folders) = folders();
         fs::write(root.path().join("external/scene.toml"), "[sea]\nwind_speed = -5.0\n").unwrap();
         let found = folders.scene().unwrap();
-        let wrong = found.wrong.unwrap().to_string();
+        let wrong = found.wrong.as_ref().unwrap().to_string();
         assert!(wrong.contains("scene.toml:2") && wrong.contains("wind_speed"), "{wrong}");
         assert!(found.file.is_none());
+        assert_eq!(folders.authored(&found), root.path().join("external/authored.toml"));
         assert_eq!(found.scene, Scene::flagship().unwrap());
     }
 

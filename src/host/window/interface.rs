@@ -1,6 +1,7 @@
 //! egui in a window: events in, triangles out.
 
 use crate::draw::Painting;
+use crate::panel::draw_pointer;
 use egui::{Context, Order, Pos2, Rect, Ui, ViewportId};
 use winit::event::{ElementState, WindowEvent};
 use winit::window::Window;
@@ -113,29 +114,10 @@ impl Interface {
             show(ui);
             *free = ui.available_rect_before_wrap();
             if let Some(at) = pointer {
-                draw_pointer(ui, at);
+                draw_pointer(ui, at, ui.input(|input| input.pointer.any_down()));
             }
         });
-        self.input.handle_platform_output(window, output.platform_output);
-        let meshes = self.context.tessellate(output.shapes, output.pixels_per_point);
-        let delta = &mut output.textures_delta;
-        let textures =
-            delta.set.drain().flat_map(|(id, deltas)| deltas.into_iter().map(move |delta| (id, delta)));
-        let textures = textures.collect();
-        let unused = delta.free.drain().collect();
-        Some(Painting { meshes, textures, unused, scale: output.pixels_per_point })
+        self.input.handle_platform_output(window, std::mem::take(&mut output.platform_output));
+        Some(Painting::of(&self.context, output))
     }
-}
-
-/// A ring where the pointer of a script is.
-fn draw_pointer(ui: &Ui, at: Pos2) {
-    let layer = egui::LayerId::new(egui::Order::Debug, egui::Id::new("scripted pointer"));
-    let down = ui.input(|input| input.pointer.any_down());
-    let painter = ui.ctx().layer_painter(layer);
-    painter.circle(
-        at,
-        if down { 5.0 } else { 7.0 },
-        egui::Color32::from_white_alpha(if down { 200 } else { 60 }),
-        egui::Stroke::new(2.0, egui::Color32::WHITE),
-    );
 }

@@ -1,22 +1,21 @@
 //! Frames in a window of the desktop, for a person who flies about. See `docs/window.md`.
 
-mod authoring;
 mod clock;
 mod desktop;
 mod input;
 mod interface;
+mod panel;
 mod readout;
 mod record;
 mod script;
 mod shader_watch;
-mod watch;
-mod workshop;
 
 pub use desktop::DesktopWindow;
 pub use input::Key;
 pub use script::{Script, ScriptError};
 
 use super::afloat::Afloat;
+use super::authoring::{Authoring, AuthoringSettings, cut};
 use super::painter::{self, Painter};
 use super::view::Viewer;
 use super::{FrameLog, FrameRecord, HostError, Screenshots, read_back};
@@ -25,12 +24,11 @@ use crate::gpu::{
     Device, DeviceNeeds, Directly, Instance, Layers, Pace, PhysicalDevice, Picture, Presenter, Target,
     TargetInfo, Turn, Validation,
 };
-use crate::lod::Quality;
 use crate::scene::Scene;
 use crate::sea::{SeaAhead, query::Surface};
 use ash::vk;
-use authoring::Authoring;
 use clock::Clock;
+use panel::PanelOver;
 use readout::{Readout, TITLE};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -58,12 +56,8 @@ pub struct WindowSettings {
     pub frame_log: Option<PathBuf>,
     /// Set by somebody outside who wants the end.
     pub stop: Arc<AtomicBool>,
-    /// The text that the scene was read from, for the panel to change.
-    pub scene_text: String,
-    /// The file it was read from, where it was one: watched, and saved to.
-    pub scene_file: Option<PathBuf>,
-    /// The quality that stands for the scene's own.
-    pub quality: Option<Quality>,
+    /// The scene's text, for the panel to change.
+    pub authoring: AuthoringSettings,
     /// A folder of shaders to be compiled whenever they change.
     pub shaders: Option<PathBuf>,
     /// What hands do, in their place; the end comes with its end.
@@ -93,8 +87,9 @@ pub struct WindowHost {
     sea: SeaAhead,
     /// Dropped before what its frames use, since dropping it waits for them.
     painter: Painter,
-    /// Dropped before the target that the panel is drawn on.
     authoring: Authoring,
+    /// Dropped before the target that it is drawn on.
+    panel: PanelOver,
     opened: Opened,
     scene: Arc<Scene>,
     sky: Arc<SkyMap>,
@@ -139,13 +134,15 @@ impl WindowHost {
     pub fn new(scene: &Scene, settings: WindowSettings) -> Result<Self, HostError> {
         let window = DesktopWindow::open(TITLE, settings.size)?;
         let log = FrameLog::create(settings.frame_log.as_deref())?;
-        let authoring = Authoring::new(&settings)?;
+        let authoring = Authoring::new(&settings.authoring)?;
+        let panel = PanelOver::new(settings.shaders.as_deref());
         let open = || open(window, &settings);
         let started = painter::start(scene, Look::Water, settings.threads, Some(0.0), open)?;
         Ok(Self {
             sea: started.sea,
             painter: started.painter,
             authoring,
+            panel,
             opened: started.opened,
             scene: Arc::new(scene.clone()),
             sky: Arc::new(started.sky),
@@ -242,7 +239,7 @@ impl WindowHost {
     /// Draws and shows a frame, and begins the sea's step to `following`.
     fn frame(&mut self, following: Option<f64>, now: &Now) -> Result<DrawCounts, HostError> {
         // The old sea has no step after this frame's, the new one its first.
-        let incoming = self.begin_incoming(following)?;
+        let incoming = self.authoring.begin_incoming(following)?;
         let Opened { window, target } = &mut self.opened;
         let maps = self.sea.next(if incoming { None } else { following })?;
         let vk::Extent2D { width, height } = target.info.extent;
@@ -256,13 +253,13 @@ impl WindowHost {
         let index = self.drawn as usize;
         self.afloat.begin(&self.scene.buoys, maps);
         let moment = Moment { eyes: &eyes, maps, solids: self.afloat.solids(), vignette: 0.0 };
-        authoring::cut(&mut self.authoring.panel, maps, &self.viewer);
-        let mut panel = Ok(());
-        let authoring = &mut self.authoring;
+        cut(&mut self.authoring.panel, maps, &eyes[0]);
+        let mut over = Ok(());
+        let panel = &mut self.panel;
         let counts = self.painter.paint(index, (target, turn), moment, |recorder| {
-            panel = authoring.record(recorder, target, index);
+            over = panel.record(recorder, target, index);
         })?;
-        panel?;
+        over?;
         if let Some(finished) = target.finished() {
             window.show(&Picture::finished(finished), Layers::One(0), PATIENCE)?;
         }
@@ -280,7 +277,7 @@ impl WindowHost {
         if extent != info.extent {
             self.painter.wait_all()?;
             self.opened.window.wait()?;
-            self.authoring.drop_overlay();
+            self.panel.drop_overlay();
             self.opened.target = Target::new(self.painter.device(), TargetInfo { extent, ..info })?;
         }
         Ok(true)
@@ -290,7 +287,7 @@ impl WindowHost {
     fn change_look(&mut self, look: Look) -> Result<(), HostError> {
         self.painter.wait_all()?;
         let device = Arc::clone(self.painter.device());
-        match Painter::new(&device, &self.opened.target, &self.scene, &self.sky, look) {
+        match Painter::new(&device, self.opened.target.pass(), &self.scene, &self.sky, look) {
             Ok(painter) => (self.painter, self.look) = (painter, look),
             Err(error) => eprintln!("this look cannot be shown: {error}"),
         }

@@ -1,8 +1,8 @@
 //! Shaders that are being changed: watched, and compiled on a thread.
 
-use super::watch::Watch;
 use crate::draw::compile_shaders;
 use crate::gpu::Replacements;
+use crate::host::authoring::Watch;
 use std::path::{Path, PathBuf};
 use std::thread::{self, JoinHandle};
 

@@ -1,31 +1,51 @@
 //! A thread that makes what a changed scene needs while the old one is shown: its sea, its sky, its renderer.
 
+use super::Fit;
 use crate::draw::{Look, SkyMap};
-use crate::gpu::{Device, Target, TargetInfo};
+use crate::gpu::{Device, Pass};
 use crate::host::painter::{self, Painter};
-use crate::lod::Quality;
 use crate::panel::Facts;
 use crate::scene::{Scene, SkySettings, WaterSettings};
 use crate::sea::SeaAhead;
-use ash::vk;
 use std::any::Any;
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, TryRecvError, channel};
 use std::thread::{self, JoinHandle};
 
 /// What is shown now, and with what.
-#[derive(Clone)]
-pub struct Shown {
+#[derive(Clone, Copy)]
+pub struct Shown<'a> {
     /// The scene.
-    pub scene: Arc<Scene>,
+    pub scene: &'a Arc<Scene>,
     /// Its sky.
-    pub sky: Arc<SkyMap>,
+    pub sky: &'a Arc<SkyMap>,
     /// How it is looked at.
     pub look: Look,
-    /// Like what targets are.
-    pub target: TargetInfo,
+    /// Of the targets.
+    pub pass: &'a Arc<Pass>,
     /// The device drawn on.
-    pub device: Arc<Device>,
+    pub device: &'a Arc<Device>,
+    /// Workers for a sea; 0 for one a core.
+    pub threads: usize,
+}
+
+impl Shown<'_> {
+    /// The same for the thread.
+    pub(super) fn kept(&self) -> Kept {
+        let Self { scene, sky, look, pass, device, threads } = *self;
+        let (scene, sky) = (Arc::clone(scene), Arc::clone(sky));
+        Kept { scene, sky, look, pass: Arc::clone(pass), device: Arc::clone(device), threads }
+    }
+}
+
+/// [`Shown`], shared.
+pub struct Kept {
+    scene: Arc<Scene>,
+    sky: Arc<SkyMap>,
+    look: Look,
+    pass: Arc<Pass>,
+    device: Arc<Device>,
+    threads: usize,
 }
 
 /// What to make.
@@ -37,12 +57,10 @@ pub enum Order {
         /// See `text`.
         origin: String,
         /// What it takes the place of.
-        shown: Shown,
-        /// The quality that the command line asked for.
-        quality: Option<Quality>,
-        /// Workers for its sea, and the time at which it will be seen, about, seconds.
-        threads: usize,
-        /// See `threads`.
+        shown: Kept,
+        /// What else is done to it.
+        fit: Fit,
+        /// When it will be seen, about, seconds.
         time: f64,
         /// Make the renderer whether or not the scene has changed: shaders have.
         anew: bool,
@@ -152,18 +170,18 @@ fn work(order: Order) -> Option<Outcome> {
             None
         }
         Order::Facts(scene) => Some(Outcome::Facts(Facts::of(&scene.sea))),
-        Order::Scene { text, origin, shown, quality, threads, time, anew } => {
+        Order::Scene { text, origin, shown, fit, time, anew } => {
             let read = Scene::parse(&text, &origin).map_err(|error| error.to_string());
             let made = read.and_then(|mut scene| {
-                scene.lod.quality = quality.unwrap_or(scene.lod.quality);
-                make(scene, &shown, threads, time, anew)
+                fit.apply(&mut scene);
+                make(scene, &shown, time, anew)
             });
             Some(made.map_or_else(Outcome::Refused, Outcome::Made))
         }
     }
 }
 
-fn make(scene: Scene, shown: &Shown, threads: usize, time: f64, anew: bool) -> Result<Box<Made>, String> {
+fn make(scene: Scene, shown: &Kept, time: f64, anew: bool) -> Result<Box<Made>, String> {
     let told = |error: &dyn std::error::Error| error.to_string();
     let before = &shown.scene;
     let sky = if light(&scene.sky) == light(&before.sky) {
@@ -174,18 +192,14 @@ fn make(scene: Scene, shown: &Shown, threads: usize, time: f64, anew: bool) -> R
     let sea = if scene.sea == before.sea {
         None
     } else {
-        let mut sea = painter::begin_sea(&scene, threads, Some(time)).map_err(|error| told(&error))?;
+        let mut sea = painter::begin_sea(&scene, shown.threads, Some(time)).map_err(|error| told(&error))?;
         // The first step remembers foam from before it, which takes its time.
         sea.next(None).map_err(|error| told(&error))?;
         Some(sea)
     };
     let painter = if anew || sky.is_some() || !is_repainting(before, &scene) {
-        // Pipelines are good for every target of the same kind: a small one stands for the window's.
-        let extent = vk::Extent2D { width: 16, height: 16 };
-        let target = Target::new(&shown.device, TargetInfo { extent, ..shown.target });
-        let target = target.map_err(|error| told(&error))?;
         let sky = sky.as_ref().unwrap_or(&shown.sky);
-        let painter = Painter::new(&shown.device, &target, &scene, sky, shown.look);
+        let painter = Painter::new(&shown.device, &shown.pass, &scene, sky, shown.look);
         Some(painter.map_err(|error| told(&error))?)
     } else {
         None

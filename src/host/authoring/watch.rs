@@ -10,18 +10,26 @@ const EVERY: Duration = Duration::from_millis(500);
 /// When a file was last written, and its length; nothing where it cannot be seen.
 type Stamp = Option<(SystemTime, u64)>;
 
-/// A file, or the shaders of a folder.
+/// A file, or the shaders of a folder. Looking at a file allocates nothing.
 #[derive(Debug)]
 pub struct Watch {
     path: PathBuf,
-    stamps: Vec<(PathBuf, Stamp)>,
+    seen: Seen,
     looked: Instant,
+}
+
+/// What was there last.
+#[derive(Debug, PartialEq)]
+enum Seen {
+    File(Stamp),
+    Folder(Vec<(PathBuf, Stamp)>),
 }
 
 impl Watch {
     /// Watches `path`, a file or a folder of WGSL files, as it is now.
     pub fn new(path: &Path) -> Self {
-        Self { stamps: stamps(path), path: path.to_owned(), looked: Instant::now() }
+        let seen = if path.is_dir() { Seen::Folder(shaders(path)) } else { Seen::File(stamp(path)) };
+        Self { seen, path: path.to_owned(), looked: Instant::now() }
     }
 
     /// Whether something there has changed since the last time that it had. A file that is not there now is being written.
@@ -30,28 +38,41 @@ impl Watch {
             return false;
         }
         self.looked = Instant::now();
-        let now = stamps(&self.path);
-        if now == self.stamps || now.iter().any(|(_, stamp)| stamp.is_none()) {
+        let (now, whole) = match &self.seen {
+            Seen::File(_) => {
+                let now = stamp(&self.path);
+                (Seen::File(now), now.is_some())
+            }
+            Seen::Folder(_) => {
+                let now = shaders(&self.path);
+                let whole = now.iter().all(|(_, stamp)| stamp.is_some());
+                (Seen::Folder(now), whole)
+            }
+        };
+        if !whole || now == self.seen {
             return false;
         }
-        self.stamps = now;
+        self.seen = now;
         true
     }
 }
 
-fn stamps(path: &Path) -> Vec<(PathBuf, Stamp)> {
-    let stamp = |path: &Path| {
-        let about = fs::metadata(path).ok()?;
-        Some((about.modified().ok()?, about.len()))
-    };
-    let Ok(entries) = fs::read_dir(path) else { return vec![(path.to_owned(), stamp(path))] };
-    let shaders = entries.flatten().map(|entry| entry.path());
-    let mut stamps: Vec<_> = shaders
+fn stamp(path: &Path) -> Stamp {
+    let about = fs::metadata(path).ok()?;
+    Some((about.modified().ok()?, about.len()))
+}
+
+/// WGSL files in `folder`, none where it cannot be read.
+fn shaders(folder: &Path) -> Vec<(PathBuf, Stamp)> {
+    let Ok(entries) = fs::read_dir(folder) else { return Vec::new() };
+    let mut found: Vec<_> = entries
+        .flatten()
+        .map(|entry| entry.path())
         .filter(|path| path.extension().is_some_and(|extension| extension == "wgsl"))
         .map(|path| (path.clone(), stamp(&path)))
         .collect();
-    stamps.sort();
-    stamps
+    found.sort();
+    found
 }
 
 #[cfg(test)]
