@@ -131,7 +131,7 @@ fn a_compositor_that_shows_it_shows_a_sea_to_each_eye() {
     let service = Service::start(Settings { compositor, ..Settings::default() });
     let mut command = service.swell();
     let arguments = ["run", "--xr", "--validate", "--frames", "60", "--mirror", "both", "--size", "640x240"];
-    let running = start(desk.show(command.args(arguments)));
+    let running = start(desk.show(command.args(arguments).args(["--xr-scale", "0.4"])));
     let half = |picture: &Picture, view| picture.part(view, 2);
     let is_sea = |view: &Picture| {
         let mean = |rows: std::ops::Range<u32>| {

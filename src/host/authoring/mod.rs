@@ -98,7 +98,8 @@ impl Authoring {
         }
     }
 
-    /// The renderer is made anew, though the text is the same.
+    /// The renderer is made anew, though the text is the same: shaders have changed.
+    #[cfg(not(target_os = "android"))]
     pub const fn make_anew(&mut self) {
         self.anew = true;
     }
@@ -159,10 +160,12 @@ impl Authoring {
         None
     }
 
-    /// Whether a sea waits for its first step here, which is then begun for the frame at `following`.
+    /// Whether a sea waits for its first step here, which is then begun for the frame at `following`. A headset, which learns late
+    /// when a frame is, begins it with the first frame that shows it.
     ///
     /// # Errors
     /// A worker failed.
+    #[cfg(not(target_os = "android"))]
     pub fn begin_incoming(&mut self, following: Option<f64>) -> Result<bool, HostError> {
         let sea = self.incoming.as_mut().and_then(|made| made.sea.as_mut());
         let (Some(sea), Some(following)) = (sea, following) else { return Ok(false) };
