@@ -8,10 +8,13 @@ use std::path::Path;
 use std::process::{Child, Stdio};
 use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
+use support::faults;
+use support::headset::settings;
 use support::monado::{Compositor, Devices, Service, Settings};
 use support::picture::Picture;
 use support::remote::{Body, Pose, Remote};
 use support::xvfb::Xvfb;
+use swell::host::{AuthoringSettings, Fit, Guest, HeadsetSettings, headset};
 use swell::panel::{Panel, presets};
 use swell::scene::Scene;
 
@@ -185,4 +188,51 @@ fn a_hand_opens_it_picks_a_sea_and_saves_it() {
     let preset = presets().into_iter().find(|preset| preset.name == "three waves").unwrap();
     assert_eq!(scene.sea, Scene::parse(preset.text, preset.name).unwrap().sea, "{}", saved());
     assert!(saved().contains("freeboard = 0.4"), "{}", saved());
+}
+
+/// Two sessions of a person who asks for the panel at once: the second shows it as the first did, where it stands.
+#[test]
+fn it_is_there_again_after_a_lost_session() {
+    let service = Service::start(Settings { devices: Devices::Remote, ..Settings::default() });
+    let _remote = Remote::start(&service, |_| Body::standing());
+    let (calls, said) = faults::passes(&service, "shown_twice", &[], "session_lost@14");
+    let ended = calls.0.iter().filter(|line| line.starts_with("end_frame") && line.contains("layers="));
+    let frames: Vec<bool> = ended.map(|line| line.contains("layers=2")).collect();
+    println!("{frames:?}\n{}", said.out);
+    // The sea's two layers, of which the panel's follows once it is drawn; then again with images of the new session's.
+    let (first, second) = frames.split_at(13.min(frames.len()));
+    for session in [first, second] {
+        let shown = session.iter().filter(|shown| **shown).count();
+        assert!(shown >= 8, "{frames:?}");
+    }
+}
+
+#[test]
+#[ignore = "runs in a process of its own"]
+fn shown_twice() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = "[sea]\nwind_speed = 4.0\nresolution = 32\n";
+    let file = folder.path().join("scene.toml");
+    fs::write(&file, text).unwrap();
+    let authoring = AuthoringSettings { text: text.to_owned(), file: Some(file), fit: Fit::new(|_| ()) };
+    let settings = HeadsetSettings { authoring: Some(authoring), ..settings(28) };
+    let mut curious = Curious { asked: false };
+    let report = headset(&Scene::parse(text, "scene").unwrap(), &settings, &mut curious).unwrap();
+    assert_eq!(report.said, Vec::<String>::new());
+    assert_eq!((report.recovered, report.shown), (1, 28));
+}
+
+/// Asks for the panel once.
+struct Curious {
+    asked: bool,
+}
+
+impl Guest for Curious {
+    fn goes_on(&mut self) -> bool {
+        true
+    }
+
+    fn asks_for_panel(&mut self) -> bool {
+        !std::mem::replace(&mut self.asked, true)
+    }
 }
