@@ -242,6 +242,36 @@ fn every_preset_is_a_scene_and_one_step() {
 }
 
 #[test]
+fn a_preset_leaves_the_comment_at_the_head_of_the_file() {
+    let is_head = |line: &&str| line.is_empty() || line.starts_with('#');
+    for name in SCENES {
+        let before = shipped(name);
+        let head: Vec<_> = before.lines().take_while(is_head).collect();
+        assert!(head.len() > 2, "{name} has one");
+        for preset in presets() {
+            let mut panel = Panel::new(before.clone(), None).unwrap();
+            panel.take_preset(&preset);
+            let after: Vec<_> = panel.text().lines().take_while(is_head).collect();
+            assert_eq!(after, head, "{name}: {}", preset.name);
+        }
+    }
+    let layered =
+        "# Mine.\n[[layer]]\n\n# Where from.\n[camera]\nfov_deg = 40.0\n\n# The water.\n[sea]\n\n[sky]\n";
+    let mut panel = Panel::new(layered.to_owned(), None).unwrap();
+    let lines = |text: &str, kept: &[char]| -> Vec<String> {
+        text.lines().filter(|line| line.starts_with(kept)).map(str::to_owned).collect()
+    };
+    for preset in presets() {
+        panel.take_preset(&preset);
+        let mut wanted: Vec<_> =
+            ["# Mine.", "# Where from.", "[camera]", "# The water."].map(str::to_owned).into();
+        wanted.extend(lines(preset.text, &['[']));
+        wanted.push("[sky]".to_owned());
+        assert_eq!(lines(panel.text(), &['#', '[']), wanted, "{}:\n{}", preset.name, panel.text());
+    }
+}
+
+#[test]
 fn keys_turn_the_waves_up_and_down() {
     let mut desk = Desk::new(&shipped("open_ocean"));
     for knob in [Knob::Steepness, Knob::Wavelength, Knob::Amplitude, Knob::Speed] {
