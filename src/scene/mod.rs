@@ -35,7 +35,7 @@ pub use address::Address;
 #[cfg(not(target_os = "android"))]
 pub use document::Document;
 pub use error::{Place, SceneError};
-pub use field::{Field, FieldKind, Part, Value, parts};
+pub use field::{Alternative, Field, FieldKind, Part, Value, parts};
 #[cfg(not(target_os = "android"))]
 pub use history::History;
 pub use reference::reference;

@@ -8,11 +8,13 @@ use crate::sea::{FoamSettings, NormalKind, SeaSettings, Spectrum};
 mod lod_signal;
 mod raft;
 mod water;
+mod wave_kinds;
 mod waves;
 
 pub(super) use lod_signal::LOD_SIGNAL;
 pub(super) use raft::{BUOY, RAFT};
 pub(super) use water::WATER;
+pub(super) use wave_kinds::{GERSTNER_FORMS, KEYS_OF_KINDS, kinds_with};
 pub(super) use waves::{ANY_SEA, FBM, FBM_FOAM, LAYER, STILL_WATER, WAVE};
 
 /// Keys of `[sea]` with model "fft" that hold for the sea as a whole.
