@@ -1,10 +1,10 @@
-//! Compiles `shaders/*.wgsl` to SPIR-V (`src/draw/wgsl.rs`), so that a shader that does not compile fails the build, with file and line.
+//! Compiles `shaders/*.wgsl` to SPIR-V (`src/draw/wgsl/`), so that a shader that does not compile fails the build, with file and line.
 //!
 //! Bindings and sizes of uniform blocks are reflected into Rust, so no table is kept by hand.
 //!
 //! Output: `$OUT_DIR/shaders.rs` and the `.spv` files it includes. See docs/shaders.md.
 
-#[path = "src/draw/wgsl.rs"]
+#[path = "src/draw/wgsl/mod.rs"]
 mod wgsl;
 
 use std::fmt::Write as _;
@@ -15,7 +15,7 @@ use wgsl::{Entry, Failure, MAX_CASCADES, Reflection};
 fn main() {
     println!("cargo::rerun-if-changed=shaders");
     println!("cargo::rerun-if-changed=build.rs");
-    println!("cargo::rerun-if-changed=src/draw/wgsl.rs");
+    println!("cargo::rerun-if-changed=src/draw/wgsl");
     if let Err(failure) = run() {
         for line in failure.lines() {
             println!("cargo::error={line}");

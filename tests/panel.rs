@@ -1,78 +1,15 @@
 //! The panel, used as a person uses it, without a screen: widgets found by name, changed, undone, saved.
 #![allow(clippy::unwrap_used, clippy::expect_used, reason = "a test may panic")]
+mod panel_support;
 
-use egui::{Event, Key, Modifiers, PointerButton, Rect, pos2, vec2};
-use egui_kittest::Harness;
+use egui::{Event, Key, Modifiers, pos2, vec2};
 use egui_kittest::kittest::Queryable;
-use std::path::Path;
+use panel_support::{Desk, shipped};
+use std::collections::BTreeSet;
 use swell::panel::{Edit, Facts, Knob, Panel, Quick, presets};
 use swell::scene::{Part, Scene, parts};
 
 const SCENES: [&str; 3] = ["open_ocean", "calm", "storm"];
-
-fn shipped(name: &str) -> String {
-    std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("scenes/{name}.toml")))
-        .unwrap()
-}
-
-/// A panel on a copy of a shipped scene.
-struct Desk {
-    folder: tempfile::TempDir,
-    harness: Harness<'static, Panel>,
-}
-
-impl Desk {
-    fn new(text: &str) -> Self {
-        let folder = tempfile::tempdir().unwrap();
-        let file = folder.path().join("scene.toml");
-        std::fs::write(&file, text).unwrap();
-        let panel = Panel::new(text.to_owned(), Some(&file)).unwrap();
-        let build = Harness::builder().with_size([1000.0, 2600.0]);
-        let harness = build.build_ui_state(|ui, panel: &mut Panel| panel.show(ui), panel);
-        Self { folder, harness }
-    }
-
-    fn panel(&mut self) -> &mut Panel {
-        self.harness.state_mut()
-    }
-
-    fn text(&self) -> &str {
-        self.harness.state().text()
-    }
-
-    fn on_disk(&self) -> String {
-        std::fs::read_to_string(self.folder.path().join("scene.toml")).unwrap()
-    }
-
-    /// Shows the widget of the key at `path`, and says where it is.
-    fn find(&mut self, path: &str) -> Rect {
-        self.panel().seek(path);
-        self.harness.run_steps(20);
-        self.harness.state().place(path).unwrap_or_else(|| panic!("no widget for {path}"))
-    }
-
-    fn click(&mut self, at: egui::Pos2) {
-        self.harness.event(Event::PointerMoved(at));
-        for pressed in [true, false] {
-            let (button, modifiers) = (PointerButton::Primary, Modifiers::NONE);
-            self.harness.event(Event::PointerButton { pos: at, button, pressed, modifiers });
-            self.harness.step();
-        }
-        self.harness.run_steps(8);
-    }
-
-    /// Drags from one place to another, in several steps as a hand does.
-    fn drag(&mut self, from: egui::Pos2, to: egui::Pos2) {
-        self.harness.drag_at(from);
-        self.harness.step();
-        for step in 1..=6_u8 {
-            self.harness.event(Event::PointerMoved(from.lerp(to, f32::from(step) / 6.0)));
-            self.harness.step();
-        }
-        self.harness.drop_at(to);
-        self.harness.run_steps(4);
-    }
-}
 
 fn wind(text: &str) -> f64 {
     Scene::parse(text, "panel").unwrap().sea.cascades[0].wind_speed
@@ -135,11 +72,16 @@ fn with(part: &Part) -> (String, String) {
 fn every_key_of_the_schema_has_a_widget() {
     for part in parts() {
         let (text, place) = with(&part);
-        let mut desk = Desk::new(&text);
-        for field in &part.fields {
-            let path = format!("{place}.{}", field.name);
-            let widget = desk.find(&path);
-            assert!(widget.width() > 10.0, "{path}: {widget:?}\n{text}");
+        // Some kinds of wave have keys that others have not.
+        let kinds: BTreeSet<_> = part.fields.iter().map(|field| field.kinds.first()).collect();
+        for kind in kinds {
+            let text = kind.map_or_else(|| text.clone(), |kind| format!("{text}kind = \"{kind}\"\n"));
+            let mut desk = Desk::new(&text);
+            for field in part.fields.iter().filter(|field| field.kinds.first() == kind) {
+                let path = format!("{place}.{}", field.name);
+                let widget = desk.find(&path);
+                assert!(widget.width() > 10.0, "{path}: {widget:?}\n{text}");
+            }
         }
     }
 }
@@ -150,10 +92,7 @@ fn another_model_takes_the_keys_of_the_first_with_it() {
         let before = shipped(scene);
         let mut desk = Desk::new(&before);
         for model in ["waves", "fbm", "fft", "waves"] {
-            let combo = desk.find("sea.model");
-            desk.click(combo.center());
-            desk.harness.get_by_label(model).click();
-            desk.harness.run_steps(4);
+            desk.choose("sea.model", model);
             assert!(desk.text().contains(&format!("model = \"{model}\"")), "{}", desk.text());
             if let Err(error) = Scene::parse(desk.text(), scene) {
                 panic!("{model}: {error}\n{}", desk.text());
@@ -196,10 +135,7 @@ fn what_is_typed_stays_within_the_range() {
 #[test]
 fn words_are_chosen_from_a_list() {
     let mut desk = Desk::new(&shipped("calm"));
-    let combo = desk.find("sea.spectrum");
-    desk.click(combo.center());
-    desk.harness.get_by_label("tma").click();
-    desk.harness.run_steps(4);
+    desk.choose("sea.spectrum", "tma");
     assert!(desk.text().contains("spectrum = \"tma\""), "{}", desk.text());
 }
 
@@ -239,6 +175,36 @@ fn every_preset_is_a_scene_and_one_step() {
     }
     let keys: Vec<char> = presets().iter().filter_map(|preset| preset.key).collect();
     assert_eq!(keys, ['8', '9', '0'], "three have keys");
+}
+
+#[test]
+fn a_preset_leaves_the_comment_at_the_head_of_the_file() {
+    let is_head = |line: &&str| line.is_empty() || line.starts_with('#');
+    for name in SCENES {
+        let before = shipped(name);
+        let head: Vec<_> = before.lines().take_while(is_head).collect();
+        assert!(head.len() > 2, "{name} has one");
+        for preset in presets() {
+            let mut panel = Panel::new(before.clone(), None).unwrap();
+            panel.take_preset(&preset);
+            let after: Vec<_> = panel.text().lines().take_while(is_head).collect();
+            assert_eq!(after, head, "{name}: {}", preset.name);
+        }
+    }
+    let layered =
+        "# Mine.\n[[layer]]\n\n# Where from.\n[camera]\nfov_deg = 40.0\n\n# The water.\n[sea]\n\n[sky]\n";
+    let mut panel = Panel::new(layered.to_owned(), None).unwrap();
+    let lines = |text: &str, kept: &[char]| -> Vec<String> {
+        text.lines().filter(|line| line.starts_with(kept)).map(str::to_owned).collect()
+    };
+    for preset in presets() {
+        panel.take_preset(&preset);
+        let mut wanted: Vec<_> =
+            ["# Mine.", "# Where from.", "[camera]", "# The water."].map(str::to_owned).into();
+        wanted.extend(lines(preset.text, &['[']));
+        wanted.push("[sky]".to_owned());
+        assert_eq!(lines(panel.text(), &['#', '[']), wanted, "{}:\n{}", preset.name, panel.text());
+    }
 }
 
 #[test]
@@ -282,10 +248,7 @@ fn a_text_that_is_no_scene_is_told_and_not_saved() {
     let before = shipped("calm");
     let mut desk = Desk::new(&before);
     assert_eq!(desk.panel().changed(), None, "what it began with is drawn already");
-    let combo = desk.find("sky.model");
-    desk.click(combo.center());
-    desk.harness.get_by_label("cubemap").click();
-    desk.harness.run_steps(4);
+    desk.choose("sky.model", "cubemap");
     let text = desk.panel().changed().unwrap();
     let error = Scene::parse(&text, "panel").unwrap_err().to_string();
     desk.panel().refused(error.clone());

@@ -83,7 +83,7 @@ fn keys_that_a_kind_has_no_use_for() {
     check_wave("centre = [1, 2]", "x.toml:4:10: sea.wave.centre = [1, 2] is for the kind circular");
     check_wave(
         "kind = 'circular'\ndirection_deg = 3",
-        "x.toml:5:17: sea.wave.direction_deg = 3 has no use in rings",
+        "x.toml:5:17: sea.wave.direction_deg = 3 is for the kinds sine, peaked and gerstner",
     );
 }
 

@@ -8,6 +8,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Stdio};
 use std::time::{Duration, Instant};
+use support::limit::Limit;
 use support::picture::Picture;
 use support::program::{Said, names, swell};
 use support::xvfb::{F1, Window, Xvfb};
@@ -115,6 +116,64 @@ fn a_key_shows_the_panel_and_hides_it() {
     assert_eq!((said.status, said.out.as_str(), said.err.as_str()), (Some(0), "", ""));
     let text = fs::read_to_string(folder.path().join("scene.toml")).unwrap();
     assert_eq!(text, fs::read_to_string(project("scenes/calm.toml")).unwrap(), "nothing was saved");
+}
+
+/// The row of the horizon, left of the panel, where there is one.
+fn horizon(picture: &Picture) -> Option<u32> {
+    let row = |y: u32| -> f64 {
+        let left = (0..picture.size[0] / 5).map(|x| picture.pixel(x, y));
+        left.map(|pixel| pixel.iter().map(|&part| f64::from(part)).sum::<f64>()).sum::<f64>()
+    };
+    let fall = |y: u32| (row(y - 1) - row(y)) / f64::from(picture.size[0] / 5 * 3);
+    (1..picture.size[1]).find(|&y| fall(y) > 8.0)
+}
+
+#[test]
+fn a_pull_that_begins_on_the_panel_turns_no_view() {
+    let screen = Xvfb::start([700, 450]);
+    let limit = Limit::new(screen.id(), 2 * PATIENCE);
+    limit.now("the start of swell");
+    let running = Running::start(&screen, tempfile::tempdir().unwrap(), &[]);
+    let window = screen.window("Swell");
+    limit.now("the first picture");
+    wait(&screen, &window, |picture| bright(picture, RIGHT) > 80.0 && horizon(picture).is_some());
+    window.focus();
+    let press_f10 = || {
+        screen.key(F10, true);
+        screen.key(F10, false);
+    };
+    limit.now("the panel's coming");
+    screen.point(60, 300);
+    press_f10();
+    wait(&screen, &window, |picture| bright(picture, RIGHT) < 60.0);
+    let before = horizon(&window.picture()).unwrap();
+
+    // From beside the panel onto it, with the button down at once. Events are taken in order: when the panel has gone, all have been.
+    limit.now("a pull on the panel");
+    screen.pull([500, 320], [500, 160]);
+    press_f10();
+    wait(&screen, &window, |picture| bright(picture, RIGHT) > 80.0);
+    let picture = window.picture();
+    let seen = Path::new(env!("CARGO_TARGET_TMPDIR")).join("pull_on_panel.png");
+    picture.save(&seen);
+    let after = horizon(&picture);
+    assert!(
+        after.is_some_and(|after| after.abs_diff(before) <= 2),
+        "the horizon was in row {before} and is in {after:?} now: see {}",
+        seen.display()
+    );
+
+    // The same from the panel to beside it does turn it, though egui thinks that the mouse is on the panel.
+    limit.now("the panel's coming again");
+    press_f10();
+    wait(&screen, &window, |picture| bright(picture, RIGHT) < 60.0);
+    limit.now("a pull beside the panel");
+    screen.pull([60, 320], [60, 160]);
+    wait(&screen, &window, |picture| horizon(picture).is_none_or(|now| now.abs_diff(before) > 20));
+    limit.now("the end");
+    window.close();
+    let (said, _folder) = running.end();
+    assert_eq!((said.status, said.out.as_str(), said.err.as_str()), (Some(0), "", ""));
 }
 
 #[test]

@@ -2,6 +2,11 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, reason = "a test may panic")]
 mod support;
 
+use nix::sys::signal::{Signal, kill};
+use nix::unistd::Pid;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::time::Duration;
+use support::limit::Limit;
 use support::xvfb::{ESCAPE, Xvfb};
 use x11rb::connection::Connection as _;
 use x11rb::protocol::Event;
@@ -119,4 +124,14 @@ fn servers_run_side_by_side() {
     let (_connection, _) = client(&one);
     one.window("small");
     assert_eq!(other.titles(), [""; 0]);
+}
+
+#[test]
+fn a_server_that_never_answers_is_given_up() {
+    let screen = Xvfb::start([200, 100]);
+    let limit = Limit::new(screen.id(), Duration::from_secs(2));
+    limit.now("a picture of a server that stands still");
+    kill(Pid::from_raw(screen.id().try_into().unwrap()), Signal::SIGSTOP).unwrap();
+    let waited = catch_unwind(AssertUnwindSafe(|| screen.screenshot()));
+    assert!(waited.is_err(), "it has answered");
 }

@@ -8,6 +8,7 @@ mod clouds;
 mod counts;
 mod daylight;
 mod debug_view;
+mod descriptors;
 mod error;
 mod foam_pattern;
 mod hands;

@@ -3,29 +3,25 @@
 use super::camera;
 use super::counts::DrawCounts;
 use super::debug_view::Look;
+use super::descriptors::Shared;
 use super::error::DrawError;
-use super::foam_pattern;
 use super::hidden_area::{HiddenArea, HiddenMesh};
 use super::moment::Moment;
-use super::motion::{self, Motion};
+use super::motion::Motion;
 use super::ocean::Ocean;
 use super::sea_stages::SeaStages;
 use super::sea_textures::SeaTextures;
 use super::shaders::BINDINGS;
 use super::shadow::Shadow;
 use super::sky::Sky;
-use super::sky_map::{self, SkyMap};
+use super::sky_map::SkyMap;
 use super::solids::{Solids, Uploaded};
 use super::uniforms::{Constant, Frame, Spacing};
 use super::vignette::Vignette;
 use super::waves::Waves;
-use crate::gpu::{
-    Bindings, Device, FRAMES_IN_FLIGHT, GpuError, Image, ImageInfo, Pass, Recorder, Resource, Sampler,
-    Target, Turn, UploadRing, upload_image,
-};
+use crate::gpu::{Bindings, Device, FRAMES_IN_FLIGHT, Pass, Recorder, Target, Turn, UploadRing};
 use crate::lod::{Frustum, LodSettings, Quadtree, Quality, vertex_spacing};
 use crate::scene::{Scene, Shadows};
-use ash::vk;
 use glam::DVec3;
 use std::sync::Arc;
 
@@ -67,7 +63,7 @@ pub struct Renderer {
     textures: Vec<SeaTextures>,
     bindings: Bindings,
     /// Kept for the descriptor sets, which refer to them.
-    _shared: (Image, Image, [Sampler; 3]),
+    _shared: Shared,
 }
 
 impl Renderer {
@@ -107,28 +103,11 @@ impl Renderer {
         let ocean = Ocean::new(device, pass, &bindings, &scene.lod, stages, &layers)?;
         let sky = if look.has_sky() { Some(Sky::new(device, pass, &bindings)?) } else { None };
         let vignette = if look.has_vignette() { Some(Vignette::new(device, pass, &bindings)?) } else { None };
-        let shared = shared_textures(device, sky_map)?;
+        let shared = Shared::new(device, sky_map)?;
         let textures = (0..FRAMES_IN_FLIGHT)
             .map(|_| SeaTextures::new(device, cascades))
             .collect::<Result<Vec<_>, _>>()?;
-        for (slot, now) in textures.iter().enumerate() {
-            let before = &textures[motion::slot_before(slot)];
-            bindings.write(slot, |binding| match binding {
-                0 => Resource::Uniform(ring.buffer(), size_of::<Frame>() as u64),
-                1..=4 => of_cascade(&now.displacement, binding - 1, &shared.1),
-                5..=8 => of_cascade(&now.gradient, binding - 5, &shared.1),
-                9 => Resource::Texture(&shared.0),
-                10 => Resource::Texture(&shared.1),
-                11 => Resource::Sampler(&shared.2[0]),
-                12 => Resource::Sampler(&shared.2[1]),
-                13 => Resource::Sampler(&shared.2[2]),
-                14..=17 => of_cascade(&before.displacement, binding - 14, &shared.1),
-                // Shaders without shadows never look: any image and any sampler will do there.
-                20 => Resource::Texture(shadow.as_ref().map_or(&shared.1, |shadow| &shadow.map.image)),
-                21 => Resource::Sampler(shadow.as_ref().map_or(&shared.2[1], |shadow| &shadow.sampler)),
-                _ => Resource::Uniform(ring.buffer(), size_of::<Waves>() as u64),
-            });
-        }
+        shared.bind(&bindings, &ring, &textures, shadow.as_ref());
         Ok(Self {
             hidden_area,
             solids,
@@ -325,11 +304,6 @@ impl Renderer {
     }
 }
 
-/// The image of a cascade. Shaders for fewer cascades never look at those of the others: `any` will do there.
-fn of_cascade<'a>(images: &'a [Image], cascade: u32, any: &'a Image) -> Resource<'a> {
-    Resource::Texture(images.get(cascade as usize).unwrap_or(any))
-}
-
 /// How far apart the vertices of `tree` are.
 fn spacing(tree: &Quadtree) -> Spacing {
     Spacing {
@@ -337,23 +311,4 @@ fn spacing(tree: &Quadtree) -> Spacing {
         finest: tree.finest_spacing(),
         coarsest: tree.coarsest_spacing(),
     }
-}
-
-/// The sky's cube, the foam's pattern, and the samplers: tiling, clamping, and tiling at grazing angles.
-fn shared_textures(device: &Arc<Device>, sky_map: &SkyMap) -> Result<(Image, Image, [Sampler; 3]), GpuError> {
-    let cube = ImageInfo {
-        layers: 6,
-        view: vk::ImageViewType::CUBE,
-        ..ImageInfo::texture(sky_map::FACE as u32, sky_map::MIPS as u32, vk::Format::R16G16B16A16_SFLOAT)
-    };
-    let sky = Image::new(device, "sky", cube)?;
-    upload_image(device, &sky, bytemuck::cast_slice(&sky_map.texels), 8)?;
-    let pattern =
-        ImageInfo::texture(foam_pattern::SIZE as u32, foam_pattern::MIPS as u32, vk::Format::R8_UNORM);
-    let foam = Image::new(device, "foam pattern", pattern)?;
-    upload_image(device, &foam, &foam_pattern::texels(), 1)?;
-    let tiling = Sampler::new(device, "tiling", vk::SamplerAddressMode::REPEAT, 1.0)?;
-    let clamped = Sampler::new(device, "clamped", vk::SamplerAddressMode::CLAMP_TO_EDGE, 1.0)?;
-    let oblique = Sampler::new(device, "oblique", vk::SamplerAddressMode::REPEAT, 4.0)?;
-    Ok((sky, foam, [tiling, clamped, oblique]))
 }

@@ -4,10 +4,12 @@
 //! stepped every second frame. Down quickly, since a person in a headset feels each late frame; up slowly, and the more slowly
 //! the more often that was too early: a headset that can hold one level and not the one above would else swing between them.
 
-use crate::lod::Quality;
+mod ladder;
+mod punctuality;
 
-/// Sizes of the first levels, as factors on what was asked for: 0.7 draws half the pixels.
-const SCALES: [f32; 4] = [1.0, 0.9, 0.8, 0.7];
+pub use ladder::{Ladder, Level};
+pub use punctuality::Punctuality;
+
 /// Frames over which late ones are counted: about a second.
 const WINDOW: u32 = 90;
 /// Late frames among them that are too many.
@@ -20,51 +22,6 @@ const SETTLE: u32 = 45;
 const CALM: u32 = 20 * WINDOW;
 /// The same, at most: about five minutes.
 const MOST_CALM: u32 = 16 * CALM;
-/// A display's time between two frames that is no lateness but a pause, seconds.
-const PAUSE: f64 = 1.0;
-
-/// How finely frames are made.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Level {
-    /// Factor on each side of a view, beside the one asked for.
-    pub scale: f32,
-    /// The quadtree's preset.
-    pub quality: Quality,
-    /// Whether cascades beyond the first are stepped every second frame only, in turns.
-    pub in_turns: bool,
-}
-
-/// Levels, the best first; never empty.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Ladder(Vec<Level>);
-
-impl Ladder {
-    /// From what was asked for down to the least.
-    pub fn new(quality: Quality) -> Self {
-        let mut levels: Vec<_> =
-            SCALES.iter().map(|&scale| Level { scale, quality, in_turns: false }).collect();
-        let scale = SCALES[SCALES.len() - 1];
-        let coarser = [Quality::High, Quality::Medium, Quality::Low].into_iter();
-        levels.extend(coarser.filter(|&coarser| coarser < quality).map(|quality| Level {
-            scale,
-            quality,
-            in_turns: false,
-        }));
-        let least = levels.last().map_or(quality, |level| level.quality);
-        levels.push(Level { scale, quality: least, in_turns: true });
-        Self(levels)
-    }
-
-    /// The level of this number; the last one beyond it.
-    pub fn level(&self, number: usize) -> Level {
-        self.0[number.min(self.last())]
-    }
-
-    /// Number of the last level.
-    pub const fn last(&self) -> usize {
-        self.0.len() - 1
-    }
-}
 
 /// A change of level.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -153,36 +110,10 @@ impl Fallback {
     }
 }
 
-/// Tells late frames by the times at which they are seen.
-#[derive(Clone, Copy, Debug)]
-pub struct Punctuality {
-    /// Refreshes for each frame.
-    refreshes: f64,
-    latest: Option<f64>,
-}
-
-impl Punctuality {
-    /// Where each frame is drawn, or every other one and the runtime makes those between (`space_warp`).
-    pub const fn new(space_warp: bool) -> Self {
-        Self { refreshes: if space_warp { 2.0 } else { 1.0 }, latest: None }
-    }
-
-    /// Whether the frame seen at `seconds`, with `period` seconds between refreshes, is a refresh or more later than it could
-    /// have been; nothing for a first one, and after a pause.
-    pub fn frame(&mut self, seconds: f64, period: f64) -> Option<bool> {
-        let since = seconds - self.latest.replace(seconds)?;
-        (since < PAUSE.max(4.0 * period)).then_some(since > (self.refreshes + 0.5) * period)
-    }
-
-    /// Frames are interrupted: the next one is a first one.
-    pub const fn interrupt(&mut self) {
-        self.latest = None;
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::lod::Quality;
     use proptest::prelude::*;
 
     fn fallback(level: usize) -> Fallback {
@@ -197,25 +128,6 @@ mod tests {
     ) -> Vec<(u32, Change)> {
         let step = |frame| Some((frame, fallback.frame(late(frame, fallback.number()))?));
         (0..frames).filter_map(step).collect()
-    }
-
-    #[test]
-    fn size_goes_first_then_the_preset_then_the_small_waves() {
-        let ladder = Ladder::new(Quality::High);
-        let levels: Vec<_> = (0..=ladder.last()).map(|number| ladder.level(number)).collect();
-        let told: Vec<_> = levels.iter().map(|level| (level.scale, level.quality, level.in_turns)).collect();
-        use Quality::{High, Low, Medium};
-        let wanted = [
-            (1.0, High, false),
-            (0.9, High, false),
-            (0.8, High, false),
-            (0.7, High, false),
-            (0.7, Medium, false),
-            (0.7, Low, false),
-            (0.7, Low, true),
-        ];
-        assert_eq!(told, wanted);
-        assert_eq!(Ladder::new(Low).last(), 4);
     }
 
     #[test]
@@ -258,26 +170,6 @@ mod tests {
         assert_eq!(late.number(), 0);
         // Between calm and trouble nothing moves.
         assert_eq!(run(&mut fallback(1), 100_000, |frame, _| frame % 20 == 0), []);
-    }
-
-    #[test]
-    fn lateness_is_told_by_the_display() {
-        let period = 1.0 / 72.0;
-        let mut each = Punctuality::new(false);
-        let mut told = |refresh: f64| each.frame(refresh * period, period);
-        assert_eq!(
-            [0.0, 1.0, 2.0, 4.0, 5.0].map(&mut told),
-            [None, Some(false), Some(false), Some(true), Some(false)]
-        );
-        assert_eq!(told(100.0), None, "a pause");
-        let mut other = Punctuality::new(true);
-        let mut told = |refresh: f64| other.frame(refresh * period, period);
-        assert_eq!([0.0, 2.0, 5.0].map(&mut told), [None, Some(false), Some(true)]);
-        other.interrupt();
-        assert_eq!(other.frame(6.0 * period, period), None);
-        // A slow display, as tests have.
-        let mut slow = Punctuality::new(false);
-        assert_eq!([0.0, 0.2, 0.6].map(|at| slow.frame(at, 0.2)), [None, Some(false), Some(true)]);
     }
 
     proptest! {

@@ -4,6 +4,7 @@
 //! became of that, and feeds the plots. Values out of range cannot be given: widgets keep to the schema's ranges. See
 //! `docs/panel.md`.
 
+mod consequences;
 mod facts;
 mod plots;
 mod pointer;

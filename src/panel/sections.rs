@@ -13,9 +13,6 @@ enum Change {
     Remove(Address, String, usize),
 }
 
-/// The key that says which other keys may stand beside it.
-const MODEL: &str = "model";
-
 impl Panel {
     /// Shows every section, and makes the change that a widget asked for.
     pub(super) fn show_sections(&mut self, ui: &mut Ui) {
@@ -35,16 +32,12 @@ impl Panel {
         let about = match change {
             Change::Set(address, path, key, value) => {
                 self.document.set(&address, key, &value);
-                if key == MODEL {
-                    self.leave_out(parts, &address, path);
-                }
+                self.follow(parts, &address, path, key);
                 format!("{address}.{key}")
             }
             Change::Unset(address, path, key) => {
                 self.document.unset(&address, key);
-                if key == MODEL {
-                    self.leave_out(parts, &address, path);
-                }
+                self.follow(parts, &address, path, key);
                 format!("{address}.{key} unset")
             }
             Change::Add(address, name) => {
@@ -57,48 +50,6 @@ impl Panel {
             }
         };
         self.changed_about(&about);
-    }
-
-    /// The table at `address` has another model now: what that one does not know would be an error.
-    fn leave_out(&mut self, parts: &[Part], address: &Address, path: &str) {
-        let model = self.model_of(parts, address, path);
-        let here: Vec<&Part> = here(parts, path, model.as_deref()).collect();
-        self.document.retain(address, |name| {
-            here.iter().any(|part| {
-                part.children.contains(&name) || part.fields.iter().any(|field| field.name == name)
-            })
-        });
-        // One of the same name may stand there with other keys in it.
-        for child in
-            parts.iter().filter(|part| part.path.rsplit_once('.').is_some_and(|(around, _)| around == path))
-        {
-            let name = child.path.rsplit('.').next().unwrap_or_default();
-            if child.model.is_some() && self.document.get(&address.table(name), MODEL).is_none() {
-                let inner = address.table(name);
-                let known: Vec<&Part> = self::here(parts, child.path, model.as_deref()).collect();
-                self.document.retain(&inner, |key| {
-                    known.iter().any(|part| part.fields.iter().any(|field| field.name == key))
-                });
-            }
-        }
-    }
-
-    /// The model of the table at `address`, a `path`, or else of the table around it.
-    fn model_of(&self, parts: &[Part], address: &Address, path: &str) -> Option<String> {
-        let field = parts.iter().filter(|part| part.path == path).flat_map(|part| &part.fields);
-        let own = field.clone().find(|field| {
-            field.name == MODEL && parts.iter().any(|part| part.path == path && part.model.is_some())
-        });
-        match own {
-            Some(field) => match self.document.get(address, MODEL).or_else(|| field.default.clone()) {
-                Some(Value::Text(model)) => Some(model),
-                _ => None,
-            },
-            None => {
-                let (around, _) = path.rsplit_once('.')?;
-                self.model_of(parts, &address.parent(), around)
-            }
-        }
     }
 
     /// Shows the tables of the section `path` in the table at `around`.
@@ -154,7 +105,7 @@ impl Panel {
         self.note_place(format!("[{address}]"), &shown.header_response);
     }
 
-    /// The keys of one table, as its model has them, then the sections in it.
+    /// The keys of one table, as its model and its kind have them, then the sections in it.
     fn show_table(
         &mut self,
         ui: &mut Ui,
@@ -164,10 +115,14 @@ impl Panel {
         changes: &mut Vec<Change>,
     ) {
         let model = self.model_of(parts, address, path);
+        let kind = self.kind_of(parts, address, path);
         Grid::new(address.to_string()).num_columns(3).striped(true).show(ui, |ui| {
             for field in here(parts, path, model.as_deref()).flat_map(|part| &part.fields) {
-                self.show_field(ui, (address, path), field, changes);
-                ui.end_row();
+                // One that the file has and should not have is there to be taken out.
+                if field.is_for(kind.as_deref()) || self.document.get(address, field.name).is_some() {
+                    self.show_field(ui, (address, path), field, changes);
+                    ui.end_row();
+                }
             }
         });
         let chosen = |part: &Part| part.path == path && part.model.is_some();
@@ -214,10 +169,14 @@ impl Panel {
                 set
             }
         };
-        self.note_place(path, &response);
-        if is_set && ui.small_button("x").on_hover_text(format!("back to {}", field.default_text)).clicked() {
-            changes.push(Change::Unset(address.clone(), section, field.name));
+        if is_set {
+            let unset = ui.small_button("x").on_hover_text(format!("back to {}", field.default_text));
+            self.note_place(format!("{path} unset"), &unset);
+            if unset.clicked() {
+                changes.push(Change::Unset(address.clone(), section, field.name));
+            }
         }
+        self.note_place(path, &response);
     }
 }
 
@@ -231,7 +190,11 @@ fn explain(ui: &mut Ui, field: &Field) {
 }
 
 /// What may stand in the section `path` with `model`.
-fn here<'p>(parts: &'p [Part], path: &'p str, model: Option<&'p str>) -> impl Iterator<Item = &'p Part> {
+pub(super) fn here<'p>(
+    parts: &'p [Part],
+    path: &'p str,
+    model: Option<&'p str>,
+) -> impl Iterator<Item = &'p Part> {
     parts.iter().filter(move |part| part.path == path && (part.model.is_none() || part.model == model))
 }
 

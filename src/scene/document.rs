@@ -8,6 +8,8 @@ const DIGITS: i32 = 7;
 /// The text of a scene file, open for changes.
 #[derive(Clone, Debug)]
 pub struct Document {
+    /// The comment that the file begins with. It is no table's, which could be replaced or removed.
+    head: String,
     tree: DocumentMut,
 }
 
@@ -17,20 +19,25 @@ impl Document {
     /// # Errors
     /// [`SceneError::Syntax`].
     pub fn parse(text: &str, origin: &str) -> Result<Self, SceneError> {
-        let tree = text.parse::<DocumentMut>().map_err(|error| {
-            let at = error.span().unwrap_or(0..0).start;
+        let (head, body) = split_head(text);
+        let tree = body.parse::<DocumentMut>().map_err(|error| {
+            let at = head.len() + error.span().unwrap_or(0..0).start;
             SceneError::Syntax {
                 place: Place::of(origin, text, at),
                 message: error.message().replace('\n', "; "),
                 near: "this place".to_owned(),
             }
         })?;
-        Ok(Self { tree })
+        Ok(Self { head: head.replace("\r\n", "\n"), tree })
     }
 
     /// The text as it would be saved.
     pub fn text(&self) -> String {
-        self.tree.to_string()
+        let body = self.tree.to_string();
+        // What stands first now may have had an empty line above it.
+        let is_parted = self.head.lines().next_back().is_none_or(|line| line.trim().is_empty());
+        let body = if is_parted { body.trim_start_matches('\n') } else { &body };
+        format!("{}{body}", self.head)
     }
 
     /// The scene it says, by the reader that files go through.
@@ -127,10 +134,18 @@ impl Document {
         }
     }
 
-    /// Takes every table at the top of `other` for its own table of that name.
+    /// Takes every table at the top of `other` for its own table of that name, all where the first of its own stood.
     pub fn take_over(&mut self, other: &Self) {
+        let place = other.tree.iter().filter_map(|(name, _)| place(self.tree.get(name)?)).min();
         for (name, item) in other.tree.iter() {
-            self.tree.insert(name, item.clone());
+            let mut item = item.clone();
+            move_to(&mut item, place);
+            if let Some(table) = item.as_table_mut() {
+                let own = self.tree.get(name).and_then(Item::as_table);
+                let above = own.and_then(|own| own.decor().prefix().cloned());
+                table.decor_mut().set_prefix(above.unwrap_or_else(|| "\n".into()));
+            }
+            self.tree.insert(name, item);
         }
     }
 
@@ -173,6 +188,39 @@ impl Document {
             };
         }
         Some(table)
+    }
+}
+
+/// The comment and the empty lines that `text` begins with, and the rest.
+fn split_head(text: &str) -> (&str, &str) {
+    let says_nothing = |line: &&str| {
+        let rest = line.trim_start_matches([' ', '\t']);
+        rest.starts_with('#') || ["", "\n", "\r\n"].contains(&rest)
+    };
+    text.split_at(text.split_inclusive('\n').take_while(says_nothing).map(str::len).sum())
+}
+
+/// Which of a file's tables, counted from its beginning, the first table of `item` is.
+fn place(item: &Item) -> Option<isize> {
+    match item {
+        Item::Table(table) => {
+            table.position().or_else(|| table.iter().filter_map(|(_, item)| place(item)).min())
+        }
+        Item::ArrayOfTables(tables) => tables.iter().filter_map(Table::position).min(),
+        _ => None,
+    }
+}
+
+/// Has all tables of `item` written at `place`, one after the other.
+fn move_to(item: &mut Item, place: Option<isize>) {
+    let move_table = |table: &mut Table| {
+        table.set_position(place);
+        table.iter_mut().for_each(|(_, item)| move_to(item, place));
+    };
+    match item {
+        Item::Table(table) => move_table(table),
+        Item::ArrayOfTables(tables) => tables.iter_mut().for_each(move_table),
+        _ => {}
     }
 }
 

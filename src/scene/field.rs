@@ -55,6 +55,26 @@ pub struct Field {
     pub meaning: &'static str,
     /// Where the key is absent, what the section around this one says holds.
     pub inherited: bool,
+    /// The words of the key `kind` beside it with which it may stand; empty where any will do.
+    pub kinds: Vec<&'static str>,
+}
+
+impl Field {
+    /// Whether it may stand in a table of this kind.
+    pub fn is_for(&self, kind: Option<&str>) -> bool {
+        self.kinds.is_empty() || kind.is_some_and(|kind| self.kinds.contains(&kind))
+    }
+}
+
+/// Keys that say the same in two ways: one alone, or two that need each other.
+#[derive(Clone, Copy, Debug)]
+pub struct Alternative {
+    /// The word of the key `kind` with which it is so.
+    pub kind: &'static str,
+    /// The key that says it alone. Where none of the three is there, its default holds.
+    pub alone: &'static str,
+    /// The two keys, each with a value to begin with.
+    pub together: [(&'static str, f64); 2],
 }
 
 /// One section of a scene file, or what one model adds to it.
@@ -71,6 +91,8 @@ pub struct Part {
     pub children: &'static [&'static str],
     /// Its keys, in the order of the documentation.
     pub fields: Vec<Field>,
+    /// Those of its keys that stand in place of each other.
+    pub alternative: Option<Alternative>,
 }
 
 /// Every section of a scene file with every key, from the schema that files are checked against.
@@ -81,6 +103,7 @@ pub fn parts() -> Vec<Part> {
         model: section.model,
         children: section.children,
         fields: section.rows.into_iter().map(field).collect(),
+        alternative: section.alternative,
     };
     section::all().into_iter().map(part).collect()
 }
@@ -95,6 +118,7 @@ fn field(row: section::Row) -> Field {
         default_text: row.default,
         meaning: row.meaning,
         inherited: row.inherited,
+        kinds: row.kinds,
     }
 }
 

@@ -32,7 +32,7 @@ mod tessellation;
 pub use address::Address;
 pub use document::Document;
 pub use error::{Place, SceneError};
-pub use field::{Field, FieldKind, Part, Value, parts};
+pub use field::{Alternative, Field, FieldKind, Part, Value, parts};
 pub use history::History;
 pub use reference::reference;
 pub use shadows::{ShadowSettings, Shadows};

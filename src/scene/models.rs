@@ -1,6 +1,7 @@
 //! The sea's models from a scene: waves one by one, fractal sums, layers; and what their steepness sums to.
 use super::assemble::{defaults, names};
 use super::draft::{LayerDraft, Loops, SeaDraft, SeaModel, Shape, WaveDraft};
+use super::field::Alternative;
 use super::reader::Reader;
 use super::schema;
 use crate::sea::waves::{
@@ -48,30 +49,37 @@ pub(super) fn read_waves(reader: &mut Reader<'_>, path: &str, table: &DeTable<'_
 
 /// Reports keys that the kind of wave has no use for, and those of a Gerstner wave that say too much or too little.
 fn check_shape(reader: &mut Reader<'_>, path: &str, table: &DeTable<'_>, draft: &WaveDraft) {
-    let kinds: &[(&str, &[Shape], &str)] = &[
-        ("direction_deg", &[Shape::Sine, Shape::Peaked, Shape::Gerstner], "has no use in rings"),
-        ("sharpness", &[Shape::Peaked, Shape::Circular], "is for the kinds peaked and circular"),
-        ("steepness", &[Shape::Gerstner], "is for the kind gerstner"),
-        ("q", &[Shape::Gerstner], "is for the kind gerstner"),
-        ("centre", &[Shape::Circular], "is for the kind circular"),
-    ];
-    let mut report = |key: &str, problem: &str| {
+    let mut report = |key: &str, problem: String| {
         if let Some(item) = table.get(key) {
-            reader.contradiction(format!("{path}.{key}"), item.span(), problem.to_owned());
+            reader.contradiction(format!("{path}.{key}"), item.span(), problem);
         }
     };
-    for (key, shapes, problem) in kinds {
+    for (key, shapes) in schema::KEYS_OF_KINDS {
         if !shapes.contains(&draft.shape) {
-            report(key, problem);
+            report(key, is_for(shapes));
         }
     }
-    if draft.shape == Shape::Gerstner {
-        match (draft.steepness, draft.amplitude, draft.q) {
-            (Some(_), None, None) | (None, None, None) | (None, Some(_), Some(_)) => {}
-            (None, Some(_), None) => report("amplitude", "needs q beside it; or give steepness in its place"),
-            (None, None, Some(_)) => report("q", "needs amplitude beside it; or give steepness in its place"),
-            _ => report("steepness", "says it all: leave out amplitude and q, or give both in its place"),
+    let Alternative { kind, alone, together } = schema::GERSTNER_FORMS;
+    if draft.shape.word() == kind {
+        let [a, b] = together.map(|(key, _)| key);
+        match [alone, a, b].map(|key| table.get(key).is_some()) {
+            [true, true, _] | [true, _, true] => {
+                report(alone, format!("says it all: leave out {a} and {b}, or give both in its place"));
+            }
+            [false, true, false] => report(a, format!("needs {b} beside it; or give {alone} in its place")),
+            [false, false, true] => report(b, format!("needs {a} beside it; or give {alone} in its place")),
+            _ => {}
         }
+    }
+}
+
+/// "is for the kinds peaked and circular"
+fn is_for(shapes: &[Shape]) -> String {
+    let words: Vec<&str> = shapes.iter().map(|shape| shape.word()).collect();
+    match words.split_last() {
+        Some((last, [])) => format!("is for the kind {last}"),
+        Some((last, others)) => format!("is for the kinds {} and {last}", others.join(", ")),
+        None => "is for no kind".to_owned(),
     }
 }
 

@@ -5,7 +5,7 @@ use std::fmt::Write;
 const HEAD: &str = "\
 # Scene files
 
-<!-- Written from src/scene/schema.rs; after a change there run SWELL_WRITE_DOCS=1 cargo test --test scene_reference -->
+<!-- Written from src/scene/schema/; after a change there run SWELL_WRITE_DOCS=1 cargo test --test scene_reference -->
 
 A scene is a TOML file of at most 1 MiB. Every key may be left out, and an empty file is a scene. Lengths are metres,
 times seconds; only keys ending in `_deg` are degrees. Numbers are finite (`band` alone may end in `inf`). A relative path

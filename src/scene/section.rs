@@ -1,6 +1,6 @@
 //! The sections of a scene file and the names of their keys: for telling what an unknown key may have meant, and for
 //! `docs/scene.md`.
-use super::field::{self, FieldKind, Value};
+use super::field::{self, Alternative, FieldKind, Value};
 use super::key::Key;
 use super::schema;
 
@@ -17,6 +17,8 @@ pub(super) struct Row {
     pub kind: FieldKind,
     /// The default, where it is a value.
     pub value: Option<Value>,
+    /// The words of `kind` with which it may stand; empty where any will do.
+    pub kinds: Vec<&'static str>,
 }
 
 /// A section as text.
@@ -32,6 +34,8 @@ pub(super) struct Section {
     pub source: &'static str,
     /// Tables that may stand in it.
     pub children: &'static [&'static str],
+    /// Rows that stand in place of each other.
+    pub alternative: Option<Alternative>,
 }
 
 impl Section {
@@ -55,12 +59,26 @@ fn rows<T>(keys: &[Key<T>]) -> impl Iterator<Item = Row> {
         inherited: false,
         kind: field::kind(key),
         value: field::default(key),
+        kinds: Vec::new(),
     })
+}
+
+fn wave_rows() -> impl Iterator<Item = Row> {
+    rows(schema::WAVE).map(|row| Row { kinds: schema::kinds_with(row.name), ..row })
 }
 
 /// All sections, in the order in which they are documented.
 pub(super) fn all() -> Vec<Section> {
-    let section = |path, header, rows| Section { path, header, model: None, rows, source: "", children: &[] };
+    let section = |path, header, rows| Section {
+        path,
+        header,
+        model: None,
+        rows,
+        source: "",
+        children: &[],
+        alternative: None,
+    };
+    let wave = |section: Section| Section { alternative: Some(schema::GERSTNER_FORMS), ..section };
     let of_model = |model, children, section: Section| Section { model: Some(model), children, ..section };
     let from = |source, section: Section| Section { source, ..section };
     let inherited = |row| Row { inherited: true, ..row };
@@ -81,7 +99,7 @@ pub(super) fn all() -> Vec<Section> {
         ),
         of_model("fft", &[], section("sea.foam", "[sea.foam]", rows(schema::FOAM).collect())),
         of_model("waves", &["wave"], section("sea", "[sea]", rows(schema::STILL_WATER).collect())),
-        section("sea.wave", "[[sea.wave]]", rows(schema::WAVE).collect()),
+        wave(section("sea.wave", "[[sea.wave]]", wave_rows().collect())),
         of_model(
             "fbm",
             &["foam"],
@@ -92,7 +110,7 @@ pub(super) fn all() -> Vec<Section> {
         of_model("waves", &["wave"], section("layer", "[[layer]]", Vec::new())),
         from(
             "[[sea.wave]]",
-            section("layer.wave", "[[layer.wave]]", rows(schema::WAVE).map(inherited).collect()),
+            wave(section("layer.wave", "[[layer.wave]]", wave_rows().map(inherited).collect())),
         ),
         of_model(
             "fbm",

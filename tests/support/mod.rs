@@ -4,6 +4,7 @@
 pub mod faults;
 pub mod golden;
 pub mod headset;
+pub mod limit;
 pub mod live;
 pub mod monado;
 pub mod picture;

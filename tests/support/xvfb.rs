@@ -49,6 +49,11 @@ impl Xvfb {
         Self { server, folder, display, connection, root }
     }
 
+    /// The server's process.
+    pub fn id(&self) -> u32 {
+        self.server.id()
+    }
+
     /// What `DISPLAY` is to be for its clients.
     pub fn display(&self) -> &str {
         &self.display
@@ -143,6 +148,22 @@ impl Xvfb {
         self.fake(kind, button, 0, 0);
     }
 
+    /// The pointer goes to `from`, the left button goes down, the pointer goes to `to`, the button comes up: all of it at once, so
+    /// that a client finds it between two of its frames.
+    pub fn pull(&self, from: [i16; 2], to: [i16; 2]) {
+        use xproto::{BUTTON_PRESS_EVENT, BUTTON_RELEASE_EVENT, MOTION_NOTIFY_EVENT};
+        let steps =
+            (0..=4_i16).map(|step| [0, 1].map(|axis| from[axis] + (to[axis] - from[axis]) / 4 * step));
+        let mut motions = steps.map(|at| (MOTION_NOTIFY_EVENT, 0, at));
+        let begin = motions.next().into_iter().chain([(BUTTON_PRESS_EVENT, 1, [0, 0])]);
+        for (kind, detail, [x, y]) in begin.chain(motions).chain([(BUTTON_RELEASE_EVENT, 1, [0, 0])]) {
+            // Kept back until they are all there.
+            let now = x11rb::CURRENT_TIME;
+            self.connection.xtest_fake_input(kind, detail, now, self.root, x, y, 0).unwrap();
+        }
+        self.connection.sync().unwrap();
+    }
+
     /// A key goes down or up, by its keysym: ASCII for letters and digits, else as in X's `keysymdef.h`.
     pub fn key(&self, keysym: u32, down: bool) {
         let setup = self.connection.setup();
@@ -166,7 +187,13 @@ impl Drop for Xvfb {
         // Asked to end, it takes its socket and its lock with it.
         let id = nix::unistd::Pid::from_raw(self.server.id().try_into().unwrap());
         let _ = nix::sys::signal::kill(id, nix::sys::signal::Signal::SIGTERM);
-        let _ = self.server.wait();
+        let started = Instant::now();
+        while matches!(self.server.try_wait(), Ok(None)) {
+            if started.elapsed() > PATIENCE {
+                let _ = self.server.kill();
+            }
+            std::thread::sleep(Duration::from_millis(5));
+        }
     }
 }
 

@@ -64,27 +64,29 @@ impl Interface {
 
     /// Takes in an event; whether nobody else is to have it. What is let go of is everybody's business.
     pub fn take(&mut self, window: &Window, event: &WindowEvent) -> bool {
-        if !self.shown {
-            return false;
-        }
-        let consumed = self.input.on_window_event(window, event).consumed;
         if let WindowEvent::CursorMoved { position, .. } = event {
             let scale = egui_winit::pixels_per_point(&self.context, window);
             self.mouse = Some(Pos2::new(position.x as f32 / scale, position.y as f32 / scale));
         }
+        if !self.shown {
+            return false;
+        }
+        let consumed = self.input.on_window_event(window, event).consumed;
         match event {
             // A widget that was clicked keeps egui's focus; keys are its own while it is typed into.
             WindowEvent::KeyboardInput { event, .. } => {
                 self.context.text_edit_focused() && event.state == ElementState::Pressed
             }
+            // Not what egui says: that is about where the mouse was in the frame before.
             WindowEvent::MouseInput { state, .. } => {
-                (consumed || self.is_under_mouse()) && *state == ElementState::Pressed
+                let is_own = self.is_under_mouse() || self.context.egui_is_using_pointer();
+                is_own && *state == ElementState::Pressed
             }
             _ => consumed,
         }
     }
 
-    /// Whether the mouse is over something of egui's, also where it came there since the last frame.
+    /// Whether the mouse is over something of egui's, also where it came there, or left it, since the last frame.
     fn is_under_mouse(&self) -> bool {
         let above = |at| self.context.layer_id_at(at).is_some_and(|layer| layer.order != Order::Background);
         self.mouse.is_some_and(|at| !self.free.contains(at) || above(at))
