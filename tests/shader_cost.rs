@@ -3,6 +3,7 @@
 mod adreno_support;
 
 use adreno_support::budget::Budgets;
+use adreno_support::frame::{HEADSETS, REACHED};
 use adreno_support::listener::{self, Listener};
 use adreno_support::{CHIPS, Cost, measure, script, spirv};
 use ash::vk;
@@ -11,7 +12,7 @@ use std::fmt::Write as _;
 use swell::draw::shaders::MODULES;
 use swell::draw::{Look, Renderer, SkyMap};
 use swell::gpu::{Device, DeviceNeeds, Instance, Opener, Target, TargetInfo, Validation};
-use swell::scene::{Scene, Shading, Shadows};
+use swell::scene::{Scene, Shading, Shadows, WAVE_LIMITS};
 use swell::sea::settings::MAX_CASCADES;
 
 /// Of the shipped scenes.
@@ -79,8 +80,12 @@ fn compiles_every_pipeline() {
 fn shaders_keep_to_their_budgets() {
     let budgets = Budgets::read();
     let (mut faults, mut table) = (Vec::new(), String::new());
+    let mut waves = String::from(
+        "| headset | a vertex: least | most | a pixel: least | most | waves at 20 % of its peak | at 50 % |\n\
+         |---|---:|---:|---:|---:|---:|---:|\n",
+    );
     let mut same_mesa = true;
-    for chip in &CHIPS {
+    for (chip, headset) in CHIPS.iter().zip(&HEADSETS) {
         let (driver, costs) = measure(chip, "compiles_every_pipeline");
         assert!(driver.contains(chip.name), "wanted Adreno {}, got {driver}", chip.name);
         same_mesa &= driver.contains(&format!("Mesa {}", budgets.mesa));
@@ -89,16 +94,23 @@ fn shaders_keep_to_their_budgets() {
         assert_eq!(found, budgeted, "pipelines of the renderer, and those of shaders/budgets.toml");
         faults.extend(costs.iter().flat_map(|cost| budgets.faults(chip, &driver, cost)));
         table.push_str(&rows(chip.name, chip.headset, &costs));
+        let _never = writeln!(waves, "{}", headset.row(&costs));
+        let limit = WAVE_LIMITS.iter().find(|limit| limit.headset == headset.name).unwrap();
+        let fits = headset.fewest_waves(&costs, REACHED[1]);
+        if (limit.waves, limit.refresh_rate) != (fits, headset.refresh_rate) {
+            faults
+                .push(format!("WAVE_LIMITS has {limit:?}, the model {fits} at {} Hz", headset.refresh_rate));
+        }
     }
-    println!("{table}");
+    println!("{table}\n{waves}");
     assert!(faults.is_empty(), "{}", faults.join("\n"));
     // Another Mesa compiles otherwise; its limits may still be kept.
     if same_mesa {
         let page = concat!(env!("CARGO_MANIFEST_DIR"), "/docs/quest.md");
-        assert!(
-            std::fs::read_to_string(page).unwrap().contains(&table),
-            "docs/quest.md ought to have:\n{table}"
-        );
+        let page = std::fs::read_to_string(page).unwrap();
+        for table in [table, waves] {
+            assert!(page.contains(&table), "docs/quest.md ought to have:\n{table}");
+        }
     }
 }
 

@@ -20,6 +20,7 @@ mod document;
 mod draft;
 mod error;
 mod field;
+mod headset;
 #[cfg(not(target_os = "android"))]
 mod history;
 mod key;
@@ -36,6 +37,7 @@ pub use address::Address;
 pub use document::Document;
 pub use error::{Place, SceneError};
 pub use field::{Field, FieldKind, Part, Value, parts};
+pub use headset::{WAVE_LIMITS, WaveLimit};
 #[cfg(not(target_os = "android"))]
 pub use history::History;
 pub use reference::reference;
@@ -105,16 +107,6 @@ impl Scene {
     /// As [`Scene::load`], except those of reading.
     pub fn parse(text: &str, origin: &str) -> Result<Self, SceneError> {
         assemble::assemble(text, origin)
-    }
-
-    /// The same as headsets show it: without what is for screens alone.
-    #[must_use]
-    pub fn in_headset(&self) -> Self {
-        let mut scene = self.clone();
-        if scene.water.shadows.shadows == Shadows::Screen {
-            scene.water.shadows.shadows = Shadows::Off;
-        }
-        scene
     }
 
     /// [`Scene::FLAGSHIP`], read.
