@@ -136,10 +136,8 @@ fn afloat(maps: &SeaMaps, x: f64, z: f64, half: f64) -> Pose {
     Pose { position: DVec3::new(x, y, z), axes: Mat3::from_cols(right, up, right.cross(up)) }
 }
 
-/// A raft and a buoy on a swell towards a low sun, which throws the shadows of all of it this way.
-#[test]
-fn shadows() {
-    let mut scene = shipped("calm");
+/// A raft with a crate on it and a buoy towards a low sun, which throws the shadows of all of it this way, as golden `name`.
+fn in_low_sun(name: &str, mut scene: Scene) {
     let mut sea = Sea::new(&scene.sea).unwrap();
     let mut maps = sea.new_maps();
     sea.step(TIME, &mut maps).unwrap();
@@ -167,7 +165,23 @@ fn shadows() {
     let mut stage = Stage::new(&scene, SIZE, 1, Look::Water, TIME);
     stage.host.set_scenery(&solids, 0.0);
     let fov = Fov::symmetric(0.9, stage.aspect());
-    golden::check("shadows", &stage.picture(TIME, &[eye(from, [0.05, -0.3, 0.0], fov)]));
+    golden::check(name, &stage.picture(TIME, &[eye(from, [0.05, -0.3, 0.0], fov)]));
+}
+
+#[test]
+fn shadows() {
+    in_low_sun("shadows", shipped("calm"));
+}
+
+/// No maps but the sun's: waves and octaves cast the shadows and get them, on foam too.
+#[test]
+fn shadows_on_formulas() {
+    let text = "[sea]\nmodel = 'waves'\nroughness = 0.06\n\
+                [[sea.wave]]\nkind = 'gerstner'\nwavelength = 7\nsteepness = 0.2\ndirection_deg = 240\n\
+                [[sea.wave]]\nkind = 'peaked'\nwavelength = 3\namplitude = 0.04\nsharpness = 3\ndirection_deg = 200\n\
+                [[layer]]\nmodel = 'fbm'\namplitude = 0.04\nfrequency = 1.2\noctaves = 8\n[layer.foam]\nrange = [0.45, 0.8]\n\
+                [lod]\nsize = 512\nlevels = 6\n[water]\ndeep_color = [0.08, 0.2, 0.22]\n";
+    in_low_sun("shadows_on_formulas", Scene::parse(text, "shadows_on_formulas").unwrap());
 }
 
 /// Aboard a raft among buoys, a controller in each hand, the vignette half closed.
@@ -210,9 +224,9 @@ fn raft() {
 #[test]
 fn every_golden_picture_has_a_test_and_is_small() {
     let wanted = SCENES.into_iter().chain(FORMULAS).map(str::to_owned);
-    let wanted = wanted
-        .chain(VIEWS.map(|view| format!("debug_{view}")))
-        .chain(["stereo", "raft", "shadows", "layers", "blinn_phong"].map(str::to_owned));
+    let wanted = wanted.chain(VIEWS.map(|view| format!("debug_{view}"))).chain(
+        ["stereo", "raft", "shadows", "shadows_on_formulas", "layers", "blinn_phong"].map(str::to_owned),
+    );
     let wanted: BTreeSet<String> = wanted.map(|name| format!("{name}.png")).collect();
     let found: BTreeSet<String> = names(&golden::folder()).into_iter().collect();
     assert_eq!(found, wanted);

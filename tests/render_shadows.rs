@@ -17,6 +17,11 @@ const STILL: &str = "[sea]\nwind_speed = 0.5\nresolution = 64\n";
 /// Waves that the mesh carries whole, under water as white as paper, which shows light as it falls.
 const WHITE: &str = "[sea]\nwind_speed = 14\nresolution = 64\npatch_size = 160\nseed = 2\namplitude = 1.5\n[sea.foam]\nthreshold = 4\n\
                      [lod]\nsize = 512\nlevels = 5\nquality = \"high\"\n[water]\ndeep_color = [0.7, 0.7, 0.7]\n";
+/// The same of formulas: waves that run towards the sun and across it.
+const WHITE_FORMULAS: &str = "[sea]\nmodel = 'waves'\n[[sea.wave]]\nkind = 'gerstner'\nwavelength = 26\nsteepness = 0.3\n\
+                              direction_deg = 50\n[[sea.wave]]\nkind = 'peaked'\nwavelength = 19\namplitude = 0.4\n\
+                              direction_deg = -40\nsharpness = 2\n[[layer]]\n[[layer.wave]]\nwavelength = 11\namplitude = 0.2\n\
+                              [lod]\nsize = 512\nlevels = 5\nquality = \"high\"\n[water]\ndeep_color = [0.7, 0.7, 0.7]\n";
 
 /// `text` under a sun at these angles, degrees, without and with shadows.
 fn both(text: &str, azimuth: f64, elevation: f64) -> [Scene; 2] {
@@ -43,7 +48,17 @@ fn solid(shape: Shape, position: DVec3, size: Vec3) -> Solid {
 
 #[test]
 fn water_is_dark_where_a_ray_to_the_sun_meets_a_crest_and_as_before_elsewhere() {
-    let mut scenes = both(WHITE, 65.0, 4.0);
+    follows_rays(&both(WHITE, 65.0, 4.0));
+}
+
+#[test]
+fn formulas_shade_each_other_as_spectral_waves_do() {
+    follows_rays(&both(WHITE_FORMULAS, 65.0, 4.0));
+}
+
+/// Without and with shadows.
+fn follows_rays(scenes: &[Scene; 2]) {
+    let mut scenes = scenes.clone();
     for scene in &mut scenes {
         (scene.sky.sun_intensity, scene.sky.exposure) = (8.0, -1.0);
     }

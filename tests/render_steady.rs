@@ -16,7 +16,7 @@ use swell::draw::{Fov, Look};
 use swell::gpu::Validation;
 use swell::host::{Headless, HeadlessSettings};
 use swell::lod::{SignalSettings, Tessellation};
-use swell::scene::Scene;
+use swell::scene::{Scene, Shadows};
 
 #[global_allocator]
 static ALLOCATOR: &StatsAlloc<System> = &INSTRUMENTED_SYSTEM;
@@ -28,11 +28,21 @@ const SIZE: [u32; 2] = [96, 64];
 
 /// Two cascades, large enough for every worker to have had its part before the counting begins (each makes its working
 /// space when it first has one), foam with a memory (a tick every third frame), levels of detail, a buoy, shadows.
+const SPECTRAL: &str = "[sea]\nresolution = 128\nwind_speed = 9\n[sea.foam]\nfade_time = 1.0\n[[sea.cascade]]\npatch_size = 90.0\n\
+                        [[sea.cascade]]\npatch_size = 17.0\nrotation_deg = 20.0\n[lod]\nquality = \"low\"\nsize = 512.0\nlevels = 4\n\
+                        [water]\nshadows = \"on\"\nshadow_resolution = 256\n[[buoy]]\nat = [3.0, -6.0]\n";
+
+/// Waves and octaves with foam, to be layered on a sea.
+const LAYERS: &str = "[[layer]]\n[[layer.wave]]\nkind = 'gerstner'\nwavelength = 30\nsteepness = 0.3\n\
+                      [[layer.wave]]\nkind = 'circular'\nwavelength = 4\namplitude = 0.1\ncentre = [3, -20]\n\
+                      [[layer]]\nmodel = 'fbm'\noctaves = 12\namplitude = 0.2\n";
+
+/// A sea of nothing but formulas, without shadows.
+const FORMULAS: &str = "[sea]\nmodel = 'waves'\n[[sea.wave]]\nkind = 'peaked'\nwavelength = 25\namplitude = 0.4\n\
+                        [lod]\nquality = 'low'\nsize = 512.0\nlevels = 4\n[[buoy]]\nat = [3.0, -6.0]\n";
+
 fn scene() -> Scene {
-    let text = "[sea]\nresolution = 128\nwind_speed = 9\n[sea.foam]\nfade_time = 1.0\n[[sea.cascade]]\npatch_size = 90.0\n\
-                [[sea.cascade]]\npatch_size = 17.0\nrotation_deg = 20.0\n[lod]\nquality = \"low\"\nsize = 512.0\nlevels = 4\n\
-                [water]\nshadows = \"on\"\nshadow_resolution = 256\n[[buoy]]\nat = [3.0, -6.0]\n";
-    Scene::parse(text, "steady").unwrap()
+    Scene::parse(SPECTRAL, "steady").unwrap()
 }
 
 /// Everything that any thread has asked of the allocator so far.
@@ -62,6 +72,16 @@ fn a_flight_by_the_wave_signal_allocates_nothing() {
 }
 
 #[test]
+fn a_flight_over_layers_in_shadow_allocates_nothing() {
+    alone("frames_of_a_flight_over_layers_in_shadow");
+}
+
+#[test]
+fn a_flight_over_formulas_allocates_nothing() {
+    alone("frames_of_a_flight_over_formulas");
+}
+
+#[test]
 fn the_command_allocates_nothing() {
     alone("frames_of_the_command");
 }
@@ -83,6 +103,24 @@ fn frames_of_a_flight_by_the_wave_signal() {
         fresnel: [0.3, 1.0],
         distance: [0.0, 200.0],
     });
+    fly(&scene);
+}
+
+/// Formulas on the spectral sea, which cast shadows and receive them.
+#[test]
+#[ignore = "runs in a process of its own"]
+fn frames_of_a_flight_over_layers_in_shadow() {
+    let scene = Scene::parse(&format!("{SPECTRAL}{LAYERS}"), "layers").unwrap();
+    assert!(scene.water.shadows.shadows == Shadows::On && scene.sea.spectral && scene.sea.models.len() == 2);
+    fly(&scene);
+}
+
+/// No spectrum and nothing to simulate, with a layer and without shadows.
+#[test]
+#[ignore = "runs in a process of its own"]
+fn frames_of_a_flight_over_formulas() {
+    let scene = Scene::parse(&format!("{FORMULAS}{LAYERS}"), "formulas").unwrap();
+    assert!(!scene.sea.spectral && scene.sea.models.len() == 3);
     fly(&scene);
 }
 

@@ -3,7 +3,7 @@
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use swell::lod::{Quality, SignalSettings, Tessellation};
 use swell::raft::{BuoySettings, Horizon, RaftSettings, Rider};
-use swell::scene::{Scene, ShadowSettings, Shadows, SkySource};
+use swell::scene::{Scene, ShadowSettings, Shadows, SkySource, WAVE_LIMITS};
 use swell::sea::{NormalKind, Sea, Spectrum, Surface, split_bands};
 
 fn parse(text: &str) -> Scene {
@@ -40,6 +40,27 @@ fn headsets_have_shadows_only_where_the_scene_says_so() {
         assert_eq!((scene.water.shadows.shadows, worn.water.shadows.shadows), (anywhere, in_headset));
         let water = swell::scene::WaterSettings { shadows: scene.water.shadows, ..worn.water };
         assert_eq!(Scene { water, ..worn }, scene, "and nothing else");
+    }
+}
+
+#[test]
+fn headsets_are_told_of_more_waves_than_they_have_time_for_and_get_them_all() {
+    let octaves =
+        |count: usize| format!("[[layer]]\nmodel = 'fbm'\noctaves = {count}\n[[layer]]\n[[layer.wave]]\n");
+    let [least, most] = WAVE_LIMITS.map(|limit| limit.waves);
+    assert!(least < most, "the table goes from the smaller one to the larger one");
+    let fits = parse(&octaves(least - 1));
+    assert_eq!((fits.in_headset().warnings, fits.sea.models.len()), (vec![], 2));
+    for count in [least + 1, most + 1] {
+        let scene = parse(&octaves(count - 1));
+        let worn = scene.in_headset();
+        let warning = format!(
+            "{count} waves and octaves are more than a frame has time for: at most {least} on a Quest 2 at 72 Hz, {most} on a \
+             Quest 3 at 90 Hz; give fewer, or frames come late"
+        );
+        assert_eq!(worn.warnings, [warning]);
+        assert_eq!(worn.in_headset(), worn, "told once");
+        assert_eq!(Scene { warnings: vec![], ..worn }, scene, "no wave is left out");
     }
 }
 

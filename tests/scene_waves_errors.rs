@@ -214,6 +214,11 @@ fn info_tells_speeds_periods_and_the_loop() {
     assert_eq!((still.loop_length, still.models[0].waves[0].period), (Some(0.0), None));
     assert!(text(&still).contains("speed 0.000 m/s, stands still"));
     assert!(!text(&summary("")).contains("loop"), "a spectral sea is told about as before");
+    let many = text(&summary("[sea]\nmodel = 'fbm'\noctaves = 40\n"));
+    assert!(
+        many.lines().last().unwrap().starts_with("    in a headset: 40 waves and octaves are more"),
+        "{many}"
+    );
 }
 
 #[test]

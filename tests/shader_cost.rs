@@ -3,6 +3,7 @@
 mod adreno_support;
 
 use adreno_support::budget::Budgets;
+use adreno_support::frame::{HEADSETS, REACHED};
 use adreno_support::listener::{self, Listener};
 use adreno_support::{CHIPS, Cost, measure, script, spirv};
 use ash::vk;
@@ -11,7 +12,7 @@ use std::fmt::Write as _;
 use swell::draw::shaders::MODULES;
 use swell::draw::{Look, Renderer, SkyMap};
 use swell::gpu::{Device, DeviceNeeds, Instance, Opener, Target, TargetInfo, Validation};
-use swell::scene::{Scene, Shading, Shadows};
+use swell::scene::{Scene, Shading, Shadows, WAVE_LIMITS};
 use swell::sea::settings::MAX_CASCADES;
 
 /// Of the shipped scenes.
@@ -37,19 +38,22 @@ fn compiles_every_pipeline() {
     let mut scene = Scene::load(concat!(env!("CARGO_MANIFEST_DIR"), "/scenes/open_ocean.toml")).unwrap();
     let sky = SkyMap::new(&scene.sky).unwrap();
     let first = scene.sea.cascades[0].clone();
-    for cascades in 1..=MAX_CASCADES {
-        scene.sea.cascades.resize(cascades, first.clone());
-        let mut renderer = Renderer::new(&device, eyes.pass(), &scene, &sky, Look::Water).unwrap();
+    let with_and_without_shadows = |scene: &mut Scene, cascades| {
+        let mut renderer = Renderer::new(&device, eyes.pass(), scene, &sky, Look::Water).unwrap();
         renderer.prepare_motion(&device, motion.pass()).unwrap();
         scene.water.shadows.shadows = Shadows::On;
-        Renderer::new(&device, eyes.pass(), &scene, &sky, Look::Water).unwrap();
+        Renderer::new(&device, eyes.pass(), scene, &sky, Look::Water).unwrap();
         scene.water.shadows.shadows = Shadows::Off;
+        let mut costs = listener::take(cascades);
+        // With shadows some are the same as without.
         let mut told = BTreeSet::new();
-        for cost in listener::take(cascades) {
-            // With shadows some are the same as without.
-            if told.insert(cost.line()) {
-                println!("{}", cost.line());
-            }
+        costs.retain(|cost| told.insert(cost.line()));
+        costs
+    };
+    for cascades in 1..=MAX_CASCADES {
+        scene.sea.cascades.resize(cascades, first.clone());
+        for cost in with_and_without_shadows(&mut scene, cascades) {
+            println!("{}", cost.line());
         }
     }
     // Formulas, and Blinn-Phong, bring stages of their own for the sea alone.
@@ -62,11 +66,11 @@ fn compiles_every_pipeline() {
         for cascades in usize::from(models.is_empty())..=MAX_CASCADES {
             scene.sea.spectral = cascades > 0;
             scene.sea.cascades.resize(cascades.max(1), first.clone());
-            let mut renderer = Renderer::new(&device, eyes.pass(), &scene, &sky, Look::Water).unwrap();
-            renderer.prepare_motion(&device, motion.pass()).unwrap();
             let prefix = if shading == Shading::BlinnPhong { "phong_" } else { "analytic_" };
-            for cost in listener::take(cascades).iter().filter(|cost| cost.pipeline.starts_with(prefix)) {
-                println!("{}", cost.line());
+            for cost in with_and_without_shadows(&mut scene, cascades) {
+                if cost.pipeline.starts_with(prefix) {
+                    println!("{}", cost.line());
+                }
             }
         }
     }
@@ -76,8 +80,12 @@ fn compiles_every_pipeline() {
 fn shaders_keep_to_their_budgets() {
     let budgets = Budgets::read();
     let (mut faults, mut table) = (Vec::new(), String::new());
+    let mut waves = String::from(
+        "| headset | a vertex: least | most | a pixel: least | most | waves at 20 % of its peak | at 50 % |\n\
+         |---|---:|---:|---:|---:|---:|---:|\n",
+    );
     let mut same_mesa = true;
-    for chip in &CHIPS {
+    for (chip, headset) in CHIPS.iter().zip(&HEADSETS) {
         let (driver, costs) = measure(chip, "compiles_every_pipeline");
         assert!(driver.contains(chip.name), "wanted Adreno {}, got {driver}", chip.name);
         same_mesa &= driver.contains(&format!("Mesa {}", budgets.mesa));
@@ -86,16 +94,23 @@ fn shaders_keep_to_their_budgets() {
         assert_eq!(found, budgeted, "pipelines of the renderer, and those of shaders/budgets.toml");
         faults.extend(costs.iter().flat_map(|cost| budgets.faults(chip, &driver, cost)));
         table.push_str(&rows(chip.name, chip.headset, &costs));
+        let _never = writeln!(waves, "{}", headset.row(&costs));
+        let limit = WAVE_LIMITS.iter().find(|limit| limit.headset == headset.name).unwrap();
+        let fits = headset.fewest_waves(&costs, REACHED[1]);
+        if (limit.waves, limit.refresh_rate) != (fits, headset.refresh_rate) {
+            faults
+                .push(format!("WAVE_LIMITS has {limit:?}, the model {fits} at {} Hz", headset.refresh_rate));
+        }
     }
-    println!("{table}");
+    println!("{table}\n{waves}");
     assert!(faults.is_empty(), "{}", faults.join("\n"));
     // Another Mesa compiles otherwise; its limits may still be kept.
     if same_mesa {
         let page = concat!(env!("CARGO_MANIFEST_DIR"), "/docs/quest.md");
-        assert!(
-            std::fs::read_to_string(page).unwrap().contains(&table),
-            "docs/quest.md ought to have:\n{table}"
-        );
+        let page = std::fs::read_to_string(page).unwrap();
+        for table in [table, waves] {
+            assert!(page.contains(&table), "docs/quest.md ought to have:\n{table}");
+        }
     }
 }
 

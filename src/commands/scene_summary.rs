@@ -22,6 +22,8 @@ pub struct SceneSummary {
     pub loop_length: Option<f64>,
     /// What is allowed and hardly meant.
     pub warnings: Vec<String>,
+    /// What headsets warn of besides.
+    pub headset_warnings: Vec<String>,
 }
 
 /// A model in a few numbers.
@@ -83,6 +85,7 @@ impl SceneSummary {
             cascades: cascades.collect(),
             models: scene.sea.models.iter().map(ModelSummary::new).collect(),
             loop_length: loops::length(&scene.sea.models),
+            headset_warnings: scene.in_headset().warnings.split_off(scene.warnings.len()),
             warnings: scene.warnings.clone(),
         }
     }
@@ -117,12 +120,13 @@ impl SceneSummary {
             }
         }
         match self.loop_length {
-            _ if self.models.is_empty() => Ok(()),
-            Some(length) => writeln!(out, "    loop of {length:.3} s"),
+            _ if self.models.is_empty() => {}
+            Some(length) => writeln!(out, "    loop of {length:.3} s")?,
             None => {
-                writeln!(out, "    no loop: the periods have no common multiple; sea.loop_period makes one")
+                writeln!(out, "    no loop: the periods have no common multiple; sea.loop_period makes one")?;
             }
         }
+        self.headset_warnings.iter().try_for_each(|warning| writeln!(out, "    in a headset: {warning}"))
     }
 }
 

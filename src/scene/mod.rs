@@ -19,6 +19,7 @@ mod document;
 mod draft;
 mod error;
 mod field;
+mod headset;
 mod history;
 mod key;
 mod models;
@@ -33,6 +34,7 @@ pub use address::Address;
 pub use document::Document;
 pub use error::{Place, SceneError};
 pub use field::{Alternative, Field, FieldKind, Part, Value, parts};
+pub use headset::{WAVE_LIMITS, WaveLimit};
 pub use history::History;
 pub use reference::reference;
 pub use shadows::{ShadowSettings, Shadows};
@@ -101,16 +103,6 @@ impl Scene {
     /// As [`Scene::load`], except those of reading.
     pub fn parse(text: &str, origin: &str) -> Result<Self, SceneError> {
         assemble::assemble(text, origin)
-    }
-
-    /// The same as headsets show it: without what is for screens alone.
-    #[must_use]
-    pub fn in_headset(&self) -> Self {
-        let mut scene = self.clone();
-        if scene.water.shadows.shadows == Shadows::Screen {
-            scene.water.shadows.shadows = Shadows::Off;
-        }
-        scene
     }
 
     /// [`Scene::FLAGSHIP`], read.

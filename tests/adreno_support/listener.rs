@@ -2,7 +2,7 @@
 //!
 //! It opens Vulkan for the renderer (`gpu::Opener`) and hands it an instance whose `vkGetDeviceProcAddr` gives out two
 //! functions of its own. So what is measured is what the renderer makes, in whatever state it makes it.
-use super::Cost;
+use super::{Cost, ways};
 use ash::{khr, vk};
 use std::ffi::{CStr, c_char};
 use std::mem::transmute;
@@ -134,7 +134,8 @@ unsafe extern "system" fn create_pipelines(
     unsafe {
         let mut infos = std::slice::from_raw_parts(infos, count as usize).to_vec();
         for info in &mut infos {
-            info.flags |= vk::PipelineCreateFlags::CAPTURE_STATISTICS_KHR;
+            info.flags |= vk::PipelineCreateFlags::CAPTURE_STATISTICS_KHR
+                | vk::PipelineCreateFlags::CAPTURE_INTERNAL_REPRESENTATIONS_KHR;
         }
         let create = CREATE_PIPELINES.get().unwrap();
         let result = create(device, cache, count, infos.as_ptr(), allocator, made);
@@ -181,6 +182,8 @@ unsafe fn write_down(pipeline: vk::Pipeline, vertex: vk::ShaderModule, fragment:
                 .map(|one| unsafe { one.value.i64 })
                 .unwrap_or_else(|| panic!("the driver tells no '{name}'"))
         };
+        // SAFETY: as above.
+        let assembly = unsafe { assembly(statistics, &info) };
         COSTS.lock().unwrap().push(Cost {
             pipeline: format!("{shading}{vertex}"),
             cascades: 0,
@@ -191,6 +194,32 @@ unsafe fn write_down(pipeline: vk::Pipeline, vertex: vk::ShaderModule, fragment:
             waves: value("Max Waves Per Core"),
             width: i64::from(executable.subgroup_size),
             spills: value("STP Count") + value("LDP Count"),
+            around: assembly.map_or([0; 2], |text| ways::around(&text, value("Instruction Count"))),
         });
+    }
+}
+
+/// What the driver made of a stage, as text; of the empty fragment stage of depth alone it has none.
+///
+/// # Safety
+/// The pipeline of `info` was made to keep its representations.
+unsafe fn assembly(
+    statistics: &khr::pipeline_executable_properties::Device,
+    info: &vk::PipelineExecutableInfoKHR<'_>,
+) -> Option<String> {
+    let get = statistics.fp().get_pipeline_executable_internal_representations_khr;
+    let mut count = 0;
+    // SAFETY: the caller's promise; asked for their number, then for as many, then for their bytes.
+    unsafe {
+        assert_eq!(get(statistics.device(), info, &mut count, std::ptr::null_mut()), vk::Result::SUCCESS);
+        let mut all = vec![vk::PipelineExecutableInternalRepresentationKHR::default(); count as usize];
+        assert_eq!(get(statistics.device(), info, &mut count, all.as_mut_ptr()), vk::Result::SUCCESS);
+        let mut texts: Vec<Vec<u8>> = all.iter().map(|one| vec![0; one.data_size]).collect();
+        for (one, text) in all.iter_mut().zip(&mut texts) {
+            one.p_data = text.as_mut_ptr().cast();
+        }
+        assert_eq!(get(statistics.device(), info, &mut count, all.as_mut_ptr()), vk::Result::SUCCESS);
+        let own = all.iter().position(|one| one.name_as_c_str().is_ok_and(|name| name == c"IR3 Assembly"));
+        own.map(|own| String::from_utf8_lossy(&texts[own]).trim_end_matches('\0').to_owned())
     }
 }

@@ -1,8 +1,10 @@
 //! What shaders cost on an Adreno: a device that is not there, who listens to the driver, and limits.
 #![allow(clippy::unwrap_used, clippy::expect_used, reason = "a test may panic")]
 pub mod budget;
+pub mod frame;
 pub mod listener;
 pub mod spirv;
+pub mod ways;
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
@@ -40,13 +42,17 @@ pub struct Cost {
     pub width: i64,
     /// Stores to memory for want of registers, and loads from there.
     pub spills: i64,
+    /// Fewest and most instructions once around its innermost loop, which is a wave that is a formula; 0 where there is none.
+    pub around: [i64; 2],
 }
 
 impl Cost {
     pub fn line(&self) -> String {
-        let Self { pipeline, cascades, stage, instructions, nops, registers, waves, width, spills } = self;
+        let Self { pipeline, cascades, stage, instructions, nops, registers, waves, width, spills, around } =
+            self;
+        let [fewest, most] = around;
         format!(
-            "cost {pipeline} {cascades} {stage} {instructions} {nops} {registers} {waves} {width} {spills}"
+            "cost {pipeline} {cascades} {stage} {instructions} {nops} {registers} {waves} {width} {spills} {fewest} {most}"
         )
     }
 
@@ -57,7 +63,8 @@ impl Cost {
         let mut number = || words.next()?.parse().ok();
         let [instructions, nops, registers] = [number()?, number()?, number()?];
         let [waves, width, spills] = [number()?, number()?, number()?];
-        Some(Self { pipeline, cascades, stage, instructions, nops, registers, waves, width, spills })
+        let around = [number()?, number()?];
+        Some(Self { pipeline, cascades, stage, instructions, nops, registers, waves, width, spills, around })
     }
 }
 

@@ -58,7 +58,7 @@ fn run(app: &AndroidApp) -> Result<(), EntryError> {
     }
     let name = found.file.as_deref().map_or_else(|| "built in".to_owned(), name);
     ::log::info!("scene: {name}");
-    for warning in &found.scene.warnings {
+    for warning in &found.scene.in_headset().warnings {
         ::log::warn!("{warning}");
     }
     let chosen = folders.settings().map_or_else(Chosen::default, |file| {
