@@ -58,17 +58,28 @@ impl Interface {
     }
 
     /// Shows it, or hides it.
-    pub const fn toggle(&mut self) {
+    pub fn toggle(&mut self) {
         self.shown = !self.shown;
+        if let (true, Some(at)) = (self.shown, self.mouse) {
+            self.scripted.push(egui::Event::PointerMoved(at));
+        }
     }
 
     /// Takes in an event; whether nobody else is to have it. What is let go of is everybody's business.
     pub fn take(&mut self, window: &Window, event: &WindowEvent) -> bool {
-        if let WindowEvent::CursorMoved { position, .. } = event {
+        let moved = if let WindowEvent::CursorMoved { position, .. } = event {
             let scale = egui_winit::pixels_per_point(&self.context, window);
             self.mouse = Some(Pos2::new(position.x as f32 / scale, position.y as f32 / scale));
-        }
+            true
+        } else {
+            false
+        };
         if !self.shown {
+            // Clicks are where egui knows the mouse to be, also those right after it is shown.
+            if moved {
+                let _unused = self.input.on_window_event(window, event);
+                self.input.egui_input_mut().events.clear();
+            }
             return false;
         }
         let consumed = self.input.on_window_event(window, event).consumed;
