@@ -9,6 +9,7 @@ use support::monado::{Devices, Service, Settings};
 use support::program::run;
 use support::remote::{Body, Pose, Remote};
 use support::stage::shipped;
+use swell::lod::Quality;
 use swell::raft::Horizon;
 use swell::scene::Scene;
 
@@ -22,6 +23,8 @@ fn still() -> Scene {
     let mut scene = shipped("calm");
     scene.raft.horizon = Horizon::Still;
     scene.raft.held_heave = 0.0;
+    // Nobody looks at the sea.
+    scene.lod.quality = Quality::Low;
     scene
 }
 

@@ -101,7 +101,7 @@ mod tests {
         let corner = |x: f32, y: f32| {
             board.middle.as_vec3() + board.turn * Vec3::new((x - 0.5) * SIZE[0], (0.5 - y) * SIZE[1], 0.0)
         };
-        for (x, y) in [(0.0, 0.0), (1.0, 0.0), (0.5, 0.5), (0.25, 0.9), (1.2, -0.3)] {
+        for (x, y) in [(0.01, 0.01), (0.99, 0.01), (0.5, 0.5), (0.25, 0.9), (1.2, -0.3)] {
             let place = corner(x, y);
             let hit = board.hit(aimed(hand, place)).unwrap();
             assert!((hit.at - Vec2::new(x, y)).length() < 1e-4, "{:?} for {x}, {y}", hit.at);

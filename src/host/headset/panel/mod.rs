@@ -9,7 +9,7 @@ pub use pointer::Pointed;
 pub use quad::Quad;
 
 use super::eyes;
-use super::stage::Stage;
+use super::stage::{Stage, optional};
 use super::world::World;
 use super::{Guest, Show};
 use crate::host::HostError;
@@ -100,7 +100,10 @@ impl Show<'_> {
             self.adapt.refit(&self.scene);
             guest.level(self.adapt.number());
         }
-        self.use_level(world)?;
+        // Colours alone leave what is on a coarser level there.
+        if adopted.painter || adopted.sea {
+            self.use_level(world)?;
+        }
         if adopted.before.camera != self.scene.camera {
             self.ride.begin(&self.scene)?;
         } else if adopted.before.raft != self.scene.raft {
@@ -135,9 +138,16 @@ impl Show<'_> {
             panel.pointer.leave(&mut panel.events);
         }
         let Some(board) = panel.board else { return Ok(all) };
-        let quad = match &mut stage.quad {
-            Some(quad) => quad,
-            None => stage.quad.insert(Quad::new(&stage.session)?),
+        if stage.quad.is_none() {
+            stage.quad = match Quad::new(&stage.session) {
+                Ok(quad) => Some(quad),
+                Err(HostError::Xr(error)) => optional("the panel", Err(error), None)?,
+                Err(error) => return Err(error),
+            };
+        }
+        let Some(quad) = &mut stage.quad else {
+            self.panel = None;
+            return Ok(all);
         };
         let pointed = panel.pointer.step(hands, &board, quad::POINTS, step, &mut panel.events);
         panel.authoring.measured(frame, &self.sea, panel.took);
