@@ -35,7 +35,7 @@ const SPECTRAL: &str = "[sea]\nresolution = 128\nwind_speed = 9\n[sea.foam]\nfad
 /// Waves and octaves with foam, to be layered on a sea.
 const LAYERS: &str = "[[layer]]\n[[layer.wave]]\nkind = 'gerstner'\nwavelength = 30\nsteepness = 0.3\n\
                       [[layer.wave]]\nkind = 'circular'\nwavelength = 4\namplitude = 0.1\ncentre = [3, -20]\n\
-                      [[layer]]\nmodel = 'fbm'\noctaves = 12\namplitude = 0.2\n";
+                      [[layer]]\nmodel = 'fbm'\noctaves = 4\namplitude = 0.2\n";
 
 /// A sea of nothing but formulas, without shadows.
 const FORMULAS: &str = "[sea]\nmodel = 'waves'\n[[sea.wave]]\nkind = 'peaked'\nwavelength = 25\namplitude = 0.4\n\
