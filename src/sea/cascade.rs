@@ -37,6 +37,8 @@ pub(super) struct Cascade {
     rotations: Vec<[f32; 2]>,
     /// For each tile of ku the spectra of the three fields, columns transformed.
     half: Aligned<f32>,
+    /// Those of the step before, where several threads step: see [`Self::transform_columns`].
+    last_half: Aligned<f32>,
     /// The highest level that each band makes by itself.
     tops: Aligned<f32>,
     memory: Memory,
@@ -54,11 +56,13 @@ impl Cascade {
         let n = settings.resolution;
         let layout = Layout::new(n).ok_or(SeaError::TransformSize { size: n })?;
         let spectrum = PackedSpectrum::new(settings, gravity, period, index, layout)?;
+        let half = layout.tiles() * FIELDS * layout.tile_len();
         Ok(Self {
             params: GradientParams::new(settings, normals),
             breaking: settings.breaking as f32,
             rotations: vec![[0.0; 2]; spectrum.harmonics.len()],
-            half: Aligned::zeros(layout.tiles() * FIELDS * layout.tile_len()),
+            half: Aligned::zeros(half),
+            last_half: Aligned::zeros(half),
             tops: Aligned::zeros(MAX_BANDS * Top::len(n)),
             memory: Memory::new(n),
             twiddles: Twiddles::new(&layout),
@@ -104,7 +108,13 @@ impl Cascade {
     }
 
     /// Evolution, and the pass along columns.
+    ///
+    /// Of what a thread writes here the others have read their share in the step before, and still have it in their caches:
+    /// each line would have to be taken back from there. So there are two of it, in turns.
     fn transform_columns(&mut self, phase: Phase, times: &Times) {
+        if rayon::current_num_threads() > 1 {
+            std::mem::swap(&mut self.half, &mut self.last_half);
+        }
         times.measure(stage::ROTATIONS, || {
             evolve::rotations(&self.spectrum.harmonics, phase, &mut self.rotations);
         });
