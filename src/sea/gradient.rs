@@ -125,47 +125,12 @@ pub(super) fn upward<V: Float, const SHEET: bool>(area: V, width: V) -> V {
     if SHEET { width } else { area.abs() }
 }
 
-/// Vectors that go through the long chain of dependent operations of [`inverse_sqrts`] side by side: one alone would leave
-/// the processor waiting.
-pub const ABREAST: usize = 4;
-
-/// Turns every x of `numbers`, of which there are a multiple of [`ABREAST`] vectors, into 1 / sqrt(x), to 2.5e-7; into a finite
-/// number where x is 0.
+/// The length of a normal, at least 1e-19: it may be divided by.
 ///
-/// The seed y from the exponent's bits leaves e = 1 - x y^2 within 0.0682 of 0; the rest is 1 / sqrt(1 - e), whose first two
-/// coefficients are Taylor's, the others of least relative error (Remez): 3e-8.
+/// Roots and quotients are made by a unit of their own, beside all that goes on, and are correctly rounded everywhere.
 #[inline(always)]
-pub fn inverse_sqrts<S: Simd>(simd: S, numbers: &mut [f32]) {
-    const SERIES: [f32; 5] = [1.0, 0.5, 0.374_997_35, 0.313_934_62, 0.274_992_5];
-    let one = simd.splat(1.0);
-    for numbers in numbers.chunks_exact_mut(ABREAST * S::LANES) {
-        let mut seed = [one; ABREAST];
-        let mut rest = [one; ABREAST];
-        for i in 0..ABREAST {
-            rest[i] = simd.load(&numbers[i * S::LANES..]);
-        }
-        for i in 0..ABREAST {
-            seed[i] = rest[i].inverse_sqrt_seed();
-        }
-        for i in 0..ABREAST {
-            rest[i] = (rest[i] * seed[i]).neg_mul_add(seed[i], one);
-        }
-        let mut sum = [simd.splat(SERIES[4]); ABREAST];
-        for term in [SERIES[3], SERIES[2], SERIES[1], SERIES[0]] {
-            for i in 0..ABREAST {
-                sum[i] = sum[i].mul_add(rest[i], simd.splat(term));
-            }
-        }
-        for i in 0..ABREAST {
-            (seed[i] * sum[i]).store(&mut numbers[i * S::LANES..]);
-        }
-    }
-}
-
-/// The squared length of a normal.
-#[inline(always)]
-pub fn square<V: Float>([x, y, z]: [V; 3]) -> V {
-    x.mul_add(x, y.mul_add(y, z * z))
+pub fn length<S: Simd>(simd: S, [x, y, z]: [S::F32; 3]) -> S::F32 {
+    x.mul_add(x, y.mul_add(y, z * z)).max(simd.splat(f32::MIN_POSITIVE)).sqrt()
 }
 
 /// 255 times the smoothness, 0..=1, of a normal's length, eq (53).

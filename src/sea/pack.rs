@@ -1,17 +1,17 @@
 //! Averaged texels as the maps hold them, eqs (50)-(53).
 use super::{
-    gradient::{ABREAST, inverse_sqrts, jacobian_byte, smoothness, square, to_byte},
+    gradient::{jacobian_byte, length, smoothness, to_byte},
     mips::{BandMaps, CHANNELS, Pyramid},
     simd::{Channels, Float, MAX_LANES, Simd},
 };
 use half::f16;
 use std::ops::Range;
 
-/// Texels of the two longest rows above level 0, and no less than the roots that are taken abreast.
+/// Texels of the two longest rows above level 0.
 const LONGEST: usize = 512;
 
 /// Numbers of working space.
-pub const SCRATCH: usize = 2 * LONGEST;
+pub const SCRATCH: usize = LONGEST;
 
 /// Packs `rows` of `level`, two or one, into the maps, in short passes as [`super::shade`] does.
 #[inline(always)]
@@ -31,26 +31,22 @@ pub fn pack<S: Simd>(
     let (kept, scratch) = kept.split_at_mut(pyramid.slots());
     let first = pyramid.slot(level, rows.start);
     let from = Channels::<S, CHANNELS>::new(simd, kept, first, stride, vectors);
-    let (squares, scratch) = scratch.split_at_mut(LONGEST);
-    let inverse = &mut scratch[..LONGEST];
+    let lengths = &mut scratch[..LONGEST];
     for vector in 0..vectors {
         let normal = [from.load(vector, 0), from.load(vector, 1), from.load(vector, 2)];
-        let square = square(normal);
-        square.store(&mut squares[vector * S::LANES..]);
-        square.store(&mut inverse[vector * S::LANES..]);
+        length(simd, normal).store(&mut lengths[vector * S::LANES..]);
     }
-    // What is beyond the rows does no harm.
-    let whole = (vectors * S::LANES).next_multiple_of(ABREAST * S::LANES);
-    inverse_sqrts(simd, &mut inverse[..whole]);
-    let (length, byte_scale) = (simd.splat(pyramid.normal_length), simd.splat(pyramid.byte_scale));
+    let (one, unit) = (simd.splat(1.0), simd.splat(pyramid.normal_length));
+    let byte_scale = simd.splat(pyramid.byte_scale);
     for vector in 0..vectors {
         let at = vector * S::LANES;
-        let inverse = simd.load(&inverse[at..]);
+        let long = simd.load(&lengths[at..]);
+        let inverse = one / long;
         let bytes = [
             to_byte(simd, from.load(vector, 0) * inverse),
             to_byte(simd, from.load(vector, 2) * inverse),
             jacobian_byte(simd, from.load(vector, 3), byte_scale),
-            smoothness(simd, simd.load(&squares[at..]) * inverse * length),
+            smoothness(simd, long * unit),
         ];
         let halves = [from.load(vector, 4), from.load(vector, 5), from.load(vector, 6), from.load(vector, 7)];
         if at + S::LANES <= texels.len() {

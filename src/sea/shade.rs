@@ -6,7 +6,7 @@
 use super::{
     band::Shading,
     foam::{self, FrameFoam},
-    gradient::{ABREAST, Rows, Tangents, inverse_sqrts, jacobian_byte, smoothness, square, to_byte, upward},
+    gradient::{Rows, Tangents, jacobian_byte, length, smoothness, to_byte, upward},
     mips::{CHANNELS, Level1},
     simd::{Float, MAX_LANES, Simd, Strided, StridedMut},
 };
@@ -14,13 +14,13 @@ use half::f16;
 
 /// Texels that go through all passes together.
 const CHUNK: usize = 64;
-const _: () = assert!(CHUNK.is_multiple_of(ABREAST * MAX_LANES), "whole sets of roots");
+const _: () = assert!(CHUNK.is_multiple_of(2 * MAX_LANES), "whole pairs of vectors");
 
-/// Numbers of a texel between passes: its normal along u and v, [`Tangents::area`], and what its normal is multiplied by.
+/// Numbers of a texel between passes: its normal along u and v, [`Tangents::area`], and its normal's length.
 const NUMBERS: usize = 4;
 const Z: usize = CHUNK;
 const AREA: usize = 2 * CHUNK;
-const INVERSE: usize = 3 * CHUNK;
+const LENGTH: usize = 3 * CHUNK;
 
 /// Numbers of working space.
 pub const SCRATCH: usize = 2 * NUMBERS * CHUNK;
@@ -82,8 +82,6 @@ pub fn shade<S: Simd, const SHEET: bool>(
     for first in (0..n / S::LANES).step_by(len) {
         tilt::<S, SHEET>(simd, constants, upper, first, len, above);
         tilt::<S, SHEET>(simd, constants, lower, first, len, below);
-        inverse_sqrts(simd, &mut above[INVERSE..]);
-        inverse_sqrts(simd, &mut below[INVERSE..]);
         let columns = first * S::LANES..(first + len) * S::LANES;
         let mut straight = [
             Straight::<S, SHEET>::new(simd, constants, len, above, &mut to_upper.gradient[columns.clone()]),
@@ -98,7 +96,7 @@ pub fn shade<S: Simd, const SHEET: bool>(
     }
 }
 
-/// Areas, normals of no particular length, and the squares of their lengths.
+/// Areas, normals of no particular length, and that length.
 #[inline(always)]
 fn tilt<S: Simd, const SHEET: bool>(
     simd: S,
@@ -108,14 +106,14 @@ fn tilt<S: Simd, const SHEET: bool>(
     len: usize,
     scratch: &mut [f32],
 ) {
-    let mut texels = StridedMut::reaching(simd, scratch, 0, S::LANES, len, INVERSE);
+    let mut texels = StridedMut::reaching(simd, scratch, 0, S::LANES, len, LENGTH);
     for index in 0..len {
         let tangents = Tangents::new(&rows, first + index, constants.width);
         let normal = tangents.normal::<SHEET>(constants.width);
         texels.store(index, normal[0]);
         texels.store_after(index, Z, normal[2]);
         texels.store_after(index, AREA, tangents.area);
-        texels.store_after(index, INVERSE, square(normal));
+        texels.store_after(index, LENGTH, length(simd, normal));
     }
 }
 
@@ -142,7 +140,7 @@ impl<'a, S: Simd, const SHEET: bool> Straight<'a, S, SHEET> {
         scratch: &'a [f32],
         gradient: &'a mut [[u8; 4]],
     ) -> Self {
-        let texels = Strided::reaching(simd, scratch, 0, S::LANES, len, INVERSE);
+        let texels = Strided::reaching(simd, scratch, 0, S::LANES, len, LENGTH);
         Self { simd, constants, texels, gradient }
     }
 }
@@ -151,7 +149,7 @@ impl<S: Simd, const SHEET: bool> Finish<S> for Straight<'_, S, SHEET> {
     #[inline(always)]
     fn finish(&mut self, index: usize) -> [S::F32; CHANNELS / 2] {
         let (simd, constants) = (self.simd, self.constants);
-        let inverse = self.texels.load_after(index, INVERSE);
+        let inverse = simd.splat(1.0) / self.texels.load_after(index, LENGTH);
         let area = self.texels.load_after(index, AREA);
         let x = self.texels.load_after(index, 0) * inverse;
         let y = upward::<_, SHEET>(area, constants.width) * inverse;

@@ -1,6 +1,6 @@
 //! Eight lanes: AVX2 with fused multiply-add and half-precision conversion (Haswell, Zen and later).
 use super::{
-    Float, Kernel, SEED, Simd, Texels,
+    Float, Kernel, Simd, Texels,
     texels::{MOVED_HALF, REBIAS},
     x86,
 };
@@ -213,15 +213,6 @@ impl Float for F32x8 {
     fn sqrt(self) -> Self {
         // SAFETY: vectors exist only with AVX2.
         Self(unsafe { _mm256_sqrt_ps(self.0) })
-    }
-
-    #[inline(always)]
-    fn inverse_sqrt_seed(self) -> Self {
-        // SAFETY: vectors exist only with AVX2.
-        unsafe {
-            let half = _mm256_srli_epi32::<1>(_mm256_castps_si256(self.0));
-            Self(_mm256_castsi256_ps(_mm256_sub_epi32(_mm256_set1_epi32(SEED as i32), half)))
-        }
     }
 
     #[inline(always)]

@@ -1,6 +1,6 @@
 //! Sixteen lanes of AVX-512, for rows of 256 and more and for long straight work on every texel: half as many instructions.
 use super::{
-    Float, Kernel, SEED, Simd, Texels,
+    Float, Kernel, Simd, Texels,
     avx512::Avx512,
     texels::{MOVED_HALF, REBIAS},
     x86,
@@ -253,15 +253,6 @@ impl Float for F32x16 {
     fn sqrt(self) -> Self {
         // SAFETY: vectors exist only with AVX-512.
         Self(unsafe { _mm512_sqrt_ps(self.0) })
-    }
-
-    #[inline(always)]
-    fn inverse_sqrt_seed(self) -> Self {
-        // SAFETY: vectors exist only with AVX-512.
-        unsafe {
-            let half = _mm512_srli_epi32::<1>(_mm512_castps_si512(self.0));
-            Self(_mm512_castsi512_ps(_mm512_sub_epi32(_mm512_set1_epi32(SEED as i32), half)))
-        }
     }
 
     #[inline(always)]

@@ -40,9 +40,6 @@ pub use texels::{MOVED_HALF, REBIAS, Texels};
 use half::f16;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-/// What [`Float::inverse_sqrt_seed`] takes half the bits from (Blinn 1997), such that it is as much too large as too small.
-const SEED: u32 = 0x5f37_4700;
-
 /// Most lanes that a vector has.
 pub const MAX_LANES: usize = 16;
 
@@ -135,8 +132,6 @@ pub trait Float:
     fn abs(self) -> Self;
     /// The root, correctly rounded.
     fn sqrt(self) -> Self;
-    /// 1 / sqrt(self) to 3.5 %, from the exponent's bits; some number where `self` is 0.
-    fn inverse_sqrt_seed(self) -> Self;
 
     /// Lanes of the vector.
     const LANES: usize;

@@ -1,6 +1,6 @@
 //! Four lanes: NEON, part of every 64-bit ARM processor.
 use super::{
-    Float, Kernel, SEED, Simd, Texels,
+    Float, Kernel, Simd, Texels,
     texels::{MOVED_HALF, REBIAS},
 };
 use half::f16;
@@ -208,15 +208,6 @@ impl Float for F32x4 {
     fn sqrt(self) -> Self {
         // SAFETY: vectors exist only with NEON.
         Self(unsafe { vsqrtq_f32(self.0) })
-    }
-
-    #[inline(always)]
-    fn inverse_sqrt_seed(self) -> Self {
-        // SAFETY: vectors exist only with NEON.
-        unsafe {
-            let half = vshrq_n_u32::<1>(vreinterpretq_u32_f32(self.0));
-            Self(vreinterpretq_f32_u32(vsubq_u32(vdupq_n_u32(SEED), half)))
-        }
     }
 
     #[inline(always)]

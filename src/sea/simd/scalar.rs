@@ -129,11 +129,6 @@ impl Float for F32x1 {
     }
 
     #[inline(always)]
-    fn inverse_sqrt_seed(self) -> Self {
-        Self(f32::from_bits(super::SEED.wrapping_sub(self.0.to_bits() >> 1)))
-    }
-
-    #[inline(always)]
     unsafe fn write(self, to: *mut f32) {
         // SAFETY: the caller vouches for the pointer.
         unsafe { to.write(self.0) }

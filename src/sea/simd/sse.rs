@@ -1,6 +1,6 @@
 //! Four lanes: SSE4.1, for x86 processors without AVX2. No fused multiply-add, and no half-precision conversion.
 use super::{
-    Float, Kernel, SEED, Simd, Texels,
+    Float, Kernel, Simd, Texels,
     texels::{MOVED_HALF, REBIAS},
     x86,
 };
@@ -188,15 +188,6 @@ impl Float for F32x4 {
     fn sqrt(self) -> Self {
         // SAFETY: vectors exist only with SSE4.1.
         Self(unsafe { _mm_sqrt_ps(self.0) })
-    }
-
-    #[inline(always)]
-    fn inverse_sqrt_seed(self) -> Self {
-        // SAFETY: vectors exist only with SSE4.1.
-        unsafe {
-            let half = _mm_srli_epi32::<1>(_mm_castps_si128(self.0));
-            Self(_mm_castsi128_ps(_mm_sub_epi32(_mm_set1_epi32(SEED as i32), half)))
-        }
     }
 
     #[inline(always)]
