@@ -59,10 +59,10 @@ impl<'a, S: Simd> Rows<'a, S> {
     /// Row `v`; the window holds its neighbours too.
     #[inline(always)]
     pub fn new(simd: S, window: Window, planes: &'a [f32], v: usize) -> Self {
-        // From the number before the row of the first plane to the one after the row of the last.
-        let reach = (FIELDS - 1) * window.field_stride() + 2;
+        // From a vector before the row of the first plane to one after the row of the last.
+        let reach = (FIELDS - 1) * window.field_stride() + 2 * S::LANES;
         let row = |v: usize| {
-            let first = window.row(0, v) - 1;
+            let first = window.row(0, v) - S::LANES;
             Strided::reaching(simd, planes, first, S::LANES, window.n / S::LANES, reach)
         };
         Self { above: row(v.wrapping_sub(1)), here: row(v), below: row(v + 1), window }
@@ -77,16 +77,16 @@ impl<'a, S: Simd> Rows<'a, S> {
     /// A vector of plane `field`: 0 is h, 1 is Du, 2 is Dv.
     #[inline(always)]
     pub fn value(&self, field: usize, vector: usize) -> S::F32 {
-        self.here.load_after(vector, field * self.window.field_stride() + 1)
+        self.here.load_after(vector, field * self.window.field_stride() + S::LANES)
     }
 
     /// What is ahead less what is behind, along u and along v.
     #[inline(always)]
     fn differences(&self, field: usize, vector: usize) -> [S::F32; 2] {
-        let at = field * self.window.field_stride();
-        let along_u = self.here.load_after(vector, at + 2) - self.here.load_after(vector, at);
-        let along_v = self.below.load_after(vector, at + 1) - self.above.load_after(vector, at + 1);
-        [along_u, along_v]
+        let at = field * self.window.field_stride() + S::LANES;
+        let [behind, ahead] = self.here.load_neighbours(vector, at);
+        let along_v = self.below.load_after(vector, at) - self.above.load_after(vector, at);
+        [ahead - behind, along_v]
     }
 }
 

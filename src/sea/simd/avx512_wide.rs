@@ -77,6 +77,19 @@ impl Simd for Avx512Wide {
     }
 
     #[inline(always)]
+    unsafe fn read_neighbours(self, at: *const f32) -> [F32x16; 2] {
+        // SAFETY: the caller vouches for the pointers; `self` exists only with AVX-512.
+        unsafe {
+            let before = _mm512_castps_si512(_mm512_loadu_ps(at.sub(LANES)));
+            let here = _mm512_castps_si512(_mm512_loadu_ps(at));
+            let after = _mm512_castps_si512(_mm512_loadu_ps(at.add(LANES)));
+            let behind = _mm512_alignr_epi32::<15>(here, before);
+            let ahead = _mm512_alignr_epi32::<1>(after, here);
+            [F32x16(_mm512_castsi512_ps(behind)), F32x16(_mm512_castsi512_ps(ahead))]
+        }
+    }
+
+    #[inline(always)]
     fn prefetch(self, from: *const f32) {
         x86::prefetch(from);
     }

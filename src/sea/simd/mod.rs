@@ -93,6 +93,16 @@ pub trait Simd: Copy + Send + Sync + 'static {
         unsafe { self.read(from[..<Self::F32 as Float>::LANES].as_ptr()) }
     }
 
+    /// The neighbours, before and after, of each of the [`Simd::LANES`] numbers from `at` on.
+    ///
+    /// # Safety
+    /// A vector before `at`, the one there and one after it may be read.
+    #[inline(always)]
+    unsafe fn read_neighbours(self, at: *const f32) -> [Self::F32; 2] {
+        // SAFETY: the caller vouches for the pointer.
+        unsafe { [self.read(at.sub(1)), self.read(at.add(1))] }
+    }
+
     /// Asks for the cache line of `from`, which will be read soon.
     fn prefetch(self, from: *const f32);
 

@@ -79,6 +79,18 @@ impl<'a, S: Simd> Strided<'a, S> {
         }
     }
 
+    /// The neighbours, before and after, of each number of the vector `offset` numbers after vector `index`.
+    ///
+    /// # Panics
+    /// As [`Strided::load`], and when there is no vector before that one, or one after it is beyond the reach.
+    #[inline(always)]
+    pub fn load_neighbours(self, index: usize, offset: usize) -> [S::F32; 2] {
+        let lanes = <S::F32 as Float>::LANES;
+        assert!(index < self.count && offset >= lanes && offset + lanes <= self.reach);
+        // SAFETY: every vector up to `count`, and what it reaches, was checked to be within the slice.
+        unsafe { self.simd.read_neighbours(self.first.add(index * self.stride + offset)) }
+    }
+
     /// Asks for the cache line `offset` numbers after vector `index`, which will be read soon; it may be anywhere.
     #[inline(always)]
     pub fn prefetch_after(self, index: usize, offset: usize) {
