@@ -121,11 +121,12 @@ impl Kernel for Stores<'_> {
         texels[1] = texels[1] + simd.splat(239.0);
         texels[2] = texels[2] * simd.splat(0.5);
         texels[3] = simd.splat(254.6);
+        texels[0] = texels[0] - simd.splat(3.0);
         S::F32::store_bytes(texels, &mut bytes);
         for (lane, texel) in bytes[..S::LANES].iter().enumerate() {
             // Ties to even.
             let tie = (lane as f32 * 0.5).round_ties_even() as u8;
-            assert_eq!(*texel, [lane as u8, lane as u8 + 239, tie, 255]);
+            assert_eq!(*texel, [lane.saturating_sub(3) as u8, lane as u8 + 239, tie, 255]);
         }
         assert!(bytes[S::LANES..].iter().all(|texel| *texel == [7; 4]), "wrote too far");
     }

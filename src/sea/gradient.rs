@@ -133,14 +133,14 @@ pub fn length<S: Simd>(simd: S, [x, y, z]: [S::F32; 3]) -> S::F32 {
     x.mul_add(x, y.mul_add(y, z * z)).max(simd.splat(f32::MIN_POSITIVE)).sqrt()
 }
 
-/// 255 times the smoothness, 0..=1, of a normal's length, eq (53).
+/// 255 times the smoothness, 0..=1, of a normal's length, eq (53), up to rounding.
 #[inline(always)]
 pub fn smoothness<S: Simd>(simd: S, length: S::F32) -> S::F32 {
     let (zero, one, scale) = (simd.splat(0.0), simd.splat(1.0), simd.splat(255.0));
     // 3 (length - 2/3), and the quadratic 1 - t (0.85 + 0.15 t) in factors: both then end exactly at smooth water.
     let t = length.mul_add(simd.splat(3.0), simd.splat(-2.0)).max(zero).min(one);
     let roughness = (one - t) * t.mul_add(simd.splat(0.15), one);
-    roughness.sqrt().neg_mul_add(scale, scale).max(zero)
+    roughness.sqrt().neg_mul_add(scale, scale)
 }
 
 /// -1..=1 as 0..=255, eq (51).
@@ -150,8 +150,8 @@ pub fn to_byte<S: Simd>(simd: S, value: S::F32) -> S::F32 {
     value.mul_add(half, half)
 }
 
-/// J as 0..=255, eq (51), cut off at both ends: `area` times `scale` is 127.5 J.
+/// J as at most 255, eq (51), to be cut off at 0: `area` times `scale` is 127.5 J.
 #[inline(always)]
 pub fn jacobian_byte<S: Simd>(simd: S, area: S::F32, scale: S::F32) -> S::F32 {
-    area.mul_add(scale, simd.splat(127.5)).max(simd.splat(0.0)).min(simd.splat(255.0))
+    area.mul_add(scale, simd.splat(127.5)).min(simd.splat(255.0))
 }

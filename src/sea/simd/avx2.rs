@@ -266,9 +266,11 @@ impl Float for F32x8 {
         unsafe {
             let (a, b) = (_mm256_cvtps_epi32(texels[0].0), _mm256_cvtps_epi32(texels[1].0));
             let (c, d) = (_mm256_cvtps_epi32(texels[2].0), _mm256_cvtps_epi32(texels[3].0));
-            let low = _mm256_or_si256(a, _mm256_slli_epi32::<8>(b));
-            let high = _mm256_or_si256(_mm256_slli_epi32::<16>(c), _mm256_slli_epi32::<24>(d));
-            _mm256_storeu_si256(to, _mm256_or_si256(low, high));
+            // Cut off at both ends on the way: four texels of a channel, then those of the next, in each 128 bits.
+            let words = [_mm256_packs_epi32(a, b), _mm256_packs_epi32(c, d)];
+            let bytes = _mm256_packus_epi16(words[0], words[1]);
+            let order = _mm256_broadcastsi128_si256(x86::bytes_of_texels());
+            _mm256_storeu_si256(to, _mm256_shuffle_epi8(bytes, order));
         }
     }
 }

@@ -321,9 +321,11 @@ impl Float for F32x16 {
         unsafe {
             let (a, b) = (_mm512_cvtps_epi32(texels[0].0), _mm512_cvtps_epi32(texels[1].0));
             let (c, d) = (_mm512_cvtps_epi32(texels[2].0), _mm512_cvtps_epi32(texels[3].0));
-            let low = _mm512_or_si512(a, _mm512_slli_epi32::<8>(b));
-            let high = _mm512_or_si512(_mm512_slli_epi32::<16>(c), _mm512_slli_epi32::<24>(d));
-            _mm512_storeu_epi32(to, _mm512_or_si512(low, high));
+            // Cut off at both ends on the way: four texels of a channel, then those of the next, in each 128 bits.
+            let words = [_mm512_packs_epi32(a, b), _mm512_packs_epi32(c, d)];
+            let bytes = _mm512_packus_epi16(words[0], words[1]);
+            let order = _mm512_broadcast_i32x4(x86::bytes_of_texels());
+            _mm512_storeu_epi32(to, _mm512_shuffle_epi8(bytes, order));
         }
     }
 }

@@ -175,7 +175,8 @@ pub trait Float:
     /// When `to` is shorter than a vector.
     fn store_halves(texels: [Self; 4], to: &mut [[f16; 4]]);
 
-    /// Writes four vectors of 0..=255 as bytes, rounded to nearest, ties to even; what is outside that range is unspecified.
+    /// Writes four vectors of numbers up to 255 as bytes, rounded to nearest, ties to even, negative ones as 0; what comes of
+    /// larger ones is unspecified.
     ///
     /// # Panics
     /// When `to` is shorter than a vector.

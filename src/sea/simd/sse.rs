@@ -237,9 +237,11 @@ impl Float for F32x4 {
         unsafe {
             let (a, b) = (_mm_cvtps_epi32(texels[0].0), _mm_cvtps_epi32(texels[1].0));
             let (c, d) = (_mm_cvtps_epi32(texels[2].0), _mm_cvtps_epi32(texels[3].0));
-            let low = _mm_or_si128(a, _mm_slli_epi32::<8>(b));
-            let high = _mm_or_si128(_mm_slli_epi32::<16>(c), _mm_slli_epi32::<24>(d));
-            _mm_storeu_si128(to, _mm_or_si128(low, high));
+            // Cut off at both ends on the way: four texels of a channel, then those of the next, in each 128 bits.
+            let words = [_mm_packs_epi32(a, b), _mm_packs_epi32(c, d)];
+            let bytes = _mm_packus_epi16(words[0], words[1]);
+            let order = x86::bytes_of_texels();
+            _mm_storeu_si128(to, _mm_shuffle_epi8(bytes, order));
         }
     }
 }

@@ -43,6 +43,13 @@ unsafe fn sorted([first, second, third, fourth]: [*const f64; 4]) -> [__m128; 2]
     }
 }
 
+/// The bytes of four texels from those of four channels, for a shuffle.
+#[inline(always)]
+pub fn bytes_of_texels() -> __m128i {
+    // SAFETY: SSE2 is part of x86-64.
+    unsafe { _mm_setr_epi8(0, 4, 8, 12, 1, 5, 9, 13, 2, 6, 10, 14, 3, 7, 11, 15) }
+}
+
 /// Asks for the cache line of `from`.
 #[inline(always)]
 pub fn prefetch(from: *const f32) {
