@@ -67,14 +67,17 @@ impl Kernel for Reads<'_> {
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) {
         let map = Texels::new(self.0);
-        for first in 0..self.0.len() as u32 {
-            // Lanes far apart, the last ones beyond the end: indices are modulo the number of texels.
+        let count = self.0.len() - 1;
+        for first in 0..count as u32 {
+            // Lanes far apart, the last ones beyond the end: indices are modulo the number of texels less one.
             let indices: [u32; MAX_LANES] = std::array::from_fn(|lane| first + 4099 * lane as u32);
-            let got = simd.texels(map, &indices).map(lanes);
-            for (place, got) in got.iter().enumerate() {
-                for (lane, got) in got.iter().enumerate() {
-                    let truth = self.0[indices[lane] as usize % self.0.len()][place].to_f32();
-                    assert_eq!(got.to_bits(), truth.to_bits(), "lane {lane}, number {place}: {truth}");
+            let got = simd.texel_pairs(map, &indices).map(|texels| texels.map(lanes));
+            for (after, got) in got.iter().enumerate() {
+                for (place, got) in got.iter().enumerate() {
+                    for (lane, got) in got.iter().enumerate() {
+                        let truth = self.0[indices[lane] as usize % count + after][place].to_f32();
+                        assert_eq!(got.to_bits(), truth.to_bits(), "lane {lane}, number {place}: {truth}");
+                    }
                 }
             }
         }
@@ -88,6 +91,7 @@ fn texels_are_read_at_any_place() {
         if half.is_finite() { half } else { f16::from_bits(bits ^ 0x4000) }
     };
     let texels: Vec<[f16; 4]> = (0..=u16::MAX)
+        .chain([7])
         .map(|bits| [half(bits), half(bits.wrapping_mul(3)), half(!bits), half(bits.rotate_left(5))])
         .collect();
     for isa in Isa::available() {
@@ -197,8 +201,15 @@ impl Kernel for Beyond {
             9 => drop(ChannelsMut::<S, 2>::new(simd, &mut numbers, 0, usize::MAX, 1)),
             10 => ChannelsMut::<S, 2>::new(simd, &mut numbers, 0, S::LANES, 1).store(1, 0, simd.splat(1.0)),
             11 => drop(simd.pairs(&[[0.0; 2]; 3], &[3; MAX_LANES])),
-            12 => drop(simd.texels(Texels::new(&[[f16::ZERO; 4]; 4]), &[3; MAX_LANES][..S::LANES - 1])),
-            _ => drop(Texels::new(&[[f16::ZERO; 4]; 3])),
+            12 => drop(simd.texel_pairs(Texels::new(&[[f16::ZERO; 4]; 5]), &[3; MAX_LANES][..S::LANES - 1])),
+            13 => drop(Texels::new(&[[f16::ZERO; 4]; 4])),
+            14 => {
+                let _ = Strided::reaching(simd, &numbers, 0, S::LANES, 2, S::LANES).load_neighbours(0, 0);
+            }
+            _ => {
+                let short = Strided::reaching(simd, &numbers, 0, S::LANES, 2, S::LANES);
+                let _ = short.load_neighbours(1, S::LANES);
+            }
         }
     }
 }
@@ -206,7 +217,7 @@ impl Kernel for Beyond {
 #[test]
 fn nothing_is_read_or_written_beyond_a_slice() {
     for isa in Isa::available() {
-        for case in 0..14 {
+        for case in 0..16 {
             let caught = std::panic::catch_unwind(|| isa.run(Beyond(case)));
             assert!(caught.is_err(), "{isa}, case {case}");
         }

@@ -15,6 +15,7 @@ const LONGEST: f32 = 64.0;
 
 /// Where points probably rest.
 #[derive(Debug)]
+#[repr(align(64))]
 pub struct Approach<const P: usize> {
     starts: [Start<P>; MAX_CASCADES],
     /// q - target, in texels of the first cascade, along its axes; some number where the target is none.
@@ -23,6 +24,7 @@ pub struct Approach<const P: usize> {
 
 /// Where the targets are in a cascade.
 #[derive(Clone, Copy, Debug)]
+#[repr(align(64))]
 struct Start<const P: usize> {
     column: [u32; P],
     row: [u32; P],
@@ -159,15 +161,7 @@ fn look<S: Simd, const P: usize>(
 ) -> Sum<S::F32> {
     let (columns, s) = cells(simd, &start.column[first..], u + simd.load(&start.fraction[0][first..]));
     let (rows, t) = cells(simd, &start.row[first..], v + simd.load(&start.fraction[1][first..]));
-    let mut at = [[0; MAX_LANES]; 4];
-    let mask = grid.mask as u32;
-    for l in 0..S::LANES {
-        [at[0][l], at[1][l], at[2][l], at[3][l]] = grid.corners(columns[l] & mask, rows[l] & mask);
-    }
-    let [au, _, av] = simd.texels(grid.texels, &at[0]);
-    let [bu, _, bv] = simd.texels(grid.texels, &at[1]);
-    let [cu, _, cv] = simd.texels(grid.texels, &at[2]);
-    let [du, _, dv] = simd.texels(grid.texels, &at[3]);
+    let [[au, _, av], [bu, _, bv], [cu, _, cv], [du, _, dv]] = grid.corners(simd, &columns, &rows);
     // a + b s + c t + e s t, and its derivatives.
     let (bu, cu, eu) = (bu - au, cu - au, (du - cu) - (bu - au));
     let (bv, cv, ev) = (bv - av, cv - av, (dv - cv) - (bv - av));

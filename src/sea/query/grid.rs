@@ -1,7 +1,7 @@
 //! A cascade's displacement map, with all that a look at it needs worked out once.
 use crate::sea::{
     maps::CascadeMaps,
-    simd::{MOVED_HALF, REBIAS, Texels},
+    simd::{MAX_LANES, MOVED_HALF, REBIAS, Simd, Texels},
 };
 use half::f16;
 
@@ -29,7 +29,7 @@ pub struct Grid<'a> {
 impl<'a> Grid<'a> {
     /// A sea at rest, of one texel.
     pub const FLAT: Grid<'static> = Grid {
-        texels: Texels::new(&[[f16::ZERO; 4]]),
+        texels: Texels::new(&[[f16::ZERO; 4]; 2]),
         mask: 0,
         shift: 0,
         per_metre: 1.0,
@@ -44,7 +44,8 @@ impl<'a> Grid<'a> {
         let (sin, cos) = libm::sincos(maps.rotation);
         let per_metre = n as f64 / maps.patch_size;
         Self {
-            texels: Texels::new(&maps.displacement[..n * n]),
+            // Level 1 follows.
+            texels: Texels::new(&maps.displacement[..=n * n]),
             mask: n as u64 - 1,
             shift: n.trailing_zeros(),
             per_metre,
@@ -67,13 +68,31 @@ impl<'a> Grid<'a> {
         (nearest.to_bits() & self.mask, along - (nearest - ROUND))
     }
 
-    /// Indices of the corners of a cell: itself, the next along u, along v, along both.
+    /// (Du, h, Dv) at the corners of cells whose columns and rows may be any, on the torus: themselves, the next along u,
+    /// along v, along both.
     #[inline(always)]
-    pub fn corners(&self, column: u32, row: u32) -> [u32; 4] {
-        let mask = self.mask as u32;
-        let (right, below) = ((column + 1) & mask, ((row + 1) & mask) << self.shift);
-        let row = row << self.shift;
-        [row | column, row | right, below | column, below | right]
+    pub fn corners<S: Simd>(&self, simd: S, columns: &[u32], rows: &[u32]) -> [[S::F32; 3]; 4] {
+        let (columns, rows, mask) = (&columns[..S::LANES], &rows[..S::LANES], self.mask as u32);
+        let (mut upper, mut lower, mut last) = ([0; MAX_LANES], [0; MAX_LANES], 0);
+        for l in 0..S::LANES {
+            let (column, row) = (columns[l] & mask, rows[l] & mask);
+            upper[l] = row << self.shift | column;
+            lower[l] = ((row + 1) & mask) << self.shift | column;
+            last |= u32::from(column == mask);
+        }
+        let ([a, mut b], [c, mut d]) =
+            (simd.texel_pairs(self.texels, &upper), simd.texel_pairs(self.texels, &lower));
+        // What is next to a row's last texel is its first, and not the one that follows in memory.
+        if last != 0 {
+            for l in 0..S::LANES {
+                let right = (columns[l] + 1) & mask;
+                upper[l] = upper[l] & !mask | right;
+                lower[l] = lower[l] & !mask | right;
+            }
+            [b, _] = simd.texel_pairs(self.texels, &upper);
+            [d, _] = simd.texel_pairs(self.texels, &lower);
+        }
+        [a, b, c, d]
     }
 
     /// The 16-bit floats of a texel, Du in the lowest bits.

@@ -78,12 +78,17 @@ impl Simd for Avx2 {
     }
 
     #[inline(always)]
-    fn texels(self, map: Texels<'_>, indices: &[u32]) -> [F32x8; 3] {
-        let (low, high) = (x86::texels(map, &indices[..4]), x86::texels(map, &indices[4..LANES]));
+    fn texel_pairs(self, map: Texels<'_>, indices: &[u32]) -> [[F32x8; 3]; 2] {
+        let indices = &indices[..LANES];
         // SAFETY: `self` exists only with AVX2.
         unsafe {
-            let (front, back) = (_mm256_set_m128(high[0], low[0]), _mm256_set_m128(high[1], low[1]));
-            [lower(front), upper(front), lower(back)]
+            let mut bits = [_mm256_setzero_ps(); 4];
+            for i in 0..4 {
+                let (low, high) = (x86::texel_pair(map, indices[i]), x86::texel_pair(map, indices[4 + i]));
+                bits[i] = _mm256_set_m128(high, low);
+            }
+            let [a, b, c, d] = squares(bits);
+            [[lower(a), upper(a), lower(b)], [lower(c), upper(c), lower(d)]]
         }
     }
 
@@ -93,23 +98,30 @@ impl Simd for Avx2 {
         // SAFETY: `self` exists only with AVX2.
         unsafe {
             // Within halves of four lanes: 4 x 4 squares.
-            let mut squares = [_mm256_setzero_ps(); LANES];
-            for i in 0..2 {
-                let [a, b, c, d] = [rows[4 * i].0, rows[4 * i + 1].0, rows[4 * i + 2].0, rows[4 * i + 3].0];
-                let (ab, ab_high) = (_mm256_unpacklo_ps(a, b), _mm256_unpackhi_ps(a, b));
-                let (cd, cd_high) = (_mm256_unpacklo_ps(c, d), _mm256_unpackhi_ps(c, d));
-                squares[4 * i] = _mm256_shuffle_ps::<0x44>(ab, cd);
-                squares[4 * i + 1] = _mm256_shuffle_ps::<0xee>(ab, cd);
-                squares[4 * i + 2] = _mm256_shuffle_ps::<0x44>(ab_high, cd_high);
-                squares[4 * i + 3] = _mm256_shuffle_ps::<0xee>(ab_high, cd_high);
-            }
+            let upper = squares([rows[0].0, rows[1].0, rows[2].0, rows[3].0]);
+            let lower = squares([rows[4].0, rows[5].0, rows[6].0, rows[7].0]);
             // Then the halves change places.
             for i in 0..4 {
-                let (upper, lower) = (squares[i], squares[4 + i]);
-                rows[i] = F32x8(_mm256_permute2f128_ps::<0x20>(upper, lower));
-                rows[4 + i] = F32x8(_mm256_permute2f128_ps::<0x31>(upper, lower));
+                rows[i] = F32x8(_mm256_permute2f128_ps::<0x20>(upper[i], lower[i]));
+                rows[4 + i] = F32x8(_mm256_permute2f128_ps::<0x31>(upper[i], lower[i]));
             }
         }
+    }
+}
+
+/// Swaps rows and columns of the 4 x 4 squares that each half of four vectors makes.
+#[inline(always)]
+fn squares([a, b, c, d]: [__m256; 4]) -> [__m256; 4] {
+    // SAFETY: the callers are operations of vectors, which exist only with AVX2.
+    unsafe {
+        let (ab, ab_high) = (_mm256_unpacklo_ps(a, b), _mm256_unpackhi_ps(a, b));
+        let (cd, cd_high) = (_mm256_unpacklo_ps(c, d), _mm256_unpackhi_ps(c, d));
+        [
+            _mm256_shuffle_ps::<0x44>(ab, cd),
+            _mm256_shuffle_ps::<0xee>(ab, cd),
+            _mm256_shuffle_ps::<0x44>(ab_high, cd_high),
+            _mm256_shuffle_ps::<0xee>(ab_high, cd_high),
+        ]
     }
 }
 

@@ -62,8 +62,8 @@ impl Simd for Avx512 {
     }
 
     #[inline(always)]
-    fn texels(self, map: Texels<'_>, indices: &[u32]) -> [F32x8; 3] {
-        self.0.texels(map, indices)
+    fn texel_pairs(self, map: Texels<'_>, indices: &[u32]) -> [[F32x8; 3]; 2] {
+        self.0.texel_pairs(map, indices)
     }
 
     #[inline(always)]

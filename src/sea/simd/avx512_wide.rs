@@ -102,12 +102,17 @@ impl Simd for Avx512Wide {
     }
 
     #[inline(always)]
-    fn texels(self, map: Texels<'_>, indices: &[u32]) -> [F32x16; 3] {
-        let (first, second) = (x86::texels(map, &indices[..4]), x86::texels(map, &indices[4..8]));
-        let (third, fourth) = (x86::texels(map, &indices[8..12]), x86::texels(map, &indices[12..LANES]));
-        let front = join(first[0], second[0], third[0], fourth[0]);
-        let back = join(first[1], second[1], third[1], fourth[1]);
-        [lower(front), upper(front), lower(back)]
+    fn texel_pairs(self, map: Texels<'_>, indices: &[u32]) -> [[F32x16; 3]; 2] {
+        let indices = &indices[..LANES];
+        let mut bits = [self.splat(0.0).0; 4];
+        for i in 0..4 {
+            let (first, second) = (x86::texel_pair(map, indices[i]), x86::texel_pair(map, indices[4 + i]));
+            let (third, fourth) =
+                (x86::texel_pair(map, indices[8 + i]), x86::texel_pair(map, indices[12 + i]));
+            bits[i] = join(first, second, third, fourth).0;
+        }
+        let [a, b, c, d] = squares(bits).map(F32x16);
+        [[lower(a), upper(a), lower(b)], [lower(c), upper(c), lower(d)]]
     }
 
     #[inline(always)]
@@ -116,19 +121,13 @@ impl Simd for Avx512Wide {
         // SAFETY: `self` exists only with AVX-512.
         unsafe {
             // Within quarters of four lanes: 4 x 4 squares.
-            let mut squares = [_mm512_setzero_ps(); LANES];
-            for i in 0..4 {
-                let [a, b, c, d] = [rows[4 * i].0, rows[4 * i + 1].0, rows[4 * i + 2].0, rows[4 * i + 3].0];
-                let (ab, ab_high) = (_mm512_unpacklo_ps(a, b), _mm512_unpackhi_ps(a, b));
-                let (cd, cd_high) = (_mm512_unpacklo_ps(c, d), _mm512_unpackhi_ps(c, d));
-                squares[4 * i] = _mm512_shuffle_ps::<0x44>(ab, cd);
-                squares[4 * i + 1] = _mm512_shuffle_ps::<0xee>(ab, cd);
-                squares[4 * i + 2] = _mm512_shuffle_ps::<0x44>(ab_high, cd_high);
-                squares[4 * i + 3] = _mm512_shuffle_ps::<0xee>(ab_high, cd_high);
-            }
+            let first = squares([rows[0].0, rows[1].0, rows[2].0, rows[3].0]);
+            let second = squares([rows[4].0, rows[5].0, rows[6].0, rows[7].0]);
+            let third = squares([rows[8].0, rows[9].0, rows[10].0, rows[11].0]);
+            let fourth = squares([rows[12].0, rows[13].0, rows[14].0, rows[15].0]);
             // Then the quarters change places.
             for i in 0..4 {
-                let [a, b, c, d] = [squares[i], squares[4 + i], squares[8 + i], squares[12 + i]];
+                let [a, b, c, d] = [first[i], second[i], third[i], fourth[i]];
                 let (ab, ab_high) = (_mm512_shuffle_f32x4::<0x44>(a, b), _mm512_shuffle_f32x4::<0xee>(a, b));
                 let (cd, cd_high) = (_mm512_shuffle_f32x4::<0x44>(c, d), _mm512_shuffle_f32x4::<0xee>(c, d));
                 rows[i] = F32x16(_mm512_shuffle_f32x4::<0x88>(ab, cd));
@@ -137,6 +136,22 @@ impl Simd for Avx512Wide {
                 rows[12 + i] = F32x16(_mm512_shuffle_f32x4::<0xdd>(ab_high, cd_high));
             }
         }
+    }
+}
+
+/// Swaps rows and columns of the 4 x 4 squares that each quarter of four vectors makes.
+#[inline(always)]
+fn squares([a, b, c, d]: [__m512; 4]) -> [__m512; 4] {
+    // SAFETY: the callers are operations of vectors, which exist only with AVX-512.
+    unsafe {
+        let (ab, ab_high) = (_mm512_unpacklo_ps(a, b), _mm512_unpackhi_ps(a, b));
+        let (cd, cd_high) = (_mm512_unpacklo_ps(c, d), _mm512_unpackhi_ps(c, d));
+        [
+            _mm512_shuffle_ps::<0x44>(ab, cd),
+            _mm512_shuffle_ps::<0xee>(ab, cd),
+            _mm512_shuffle_ps::<0x44>(ab_high, cd_high),
+            _mm512_shuffle_ps::<0xee>(ab_high, cd_high),
+        ]
     }
 }
 

@@ -112,12 +112,12 @@ pub trait Simd: Copy + Send + Sync + 'static {
     /// When `indices` is shorter, or an index is beyond the table.
     fn pairs(self, table: &[[f32; 2]], indices: &[u16]) -> [Self::F32; 2];
 
-    /// The first three numbers of the texels at the first [`Simd::LANES`] of `indices`, each modulo the number of
-    /// texels.
+    /// The first three numbers of the texels at the first [`Simd::LANES`] of `indices`, each modulo [`Texels`]' power of
+    /// two, and of the texels that follow them.
     ///
     /// # Panics
     /// When `indices` is shorter.
-    fn texels(self, map: Texels<'_>, indices: &[u32]) -> [Self::F32; 3];
+    fn texel_pairs(self, map: Texels<'_>, indices: &[u32]) -> [[Self::F32; 3]; 2];
 
     /// Swaps rows and columns of the square that the first [`Simd::LANES`] vectors are.
     ///

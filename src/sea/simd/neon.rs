@@ -77,17 +77,17 @@ impl Simd for Neon {
     }
 
     #[inline(always)]
-    fn texels(self, map: Texels<'_>, indices: &[u32]) -> [F32x4; 3] {
+    fn texel_pairs(self, map: Texels<'_>, indices: &[u32]) -> [[F32x4; 3]; 2] {
         let indices = &indices[..LANES];
-        // SAFETY: each pointer is to a texel, 64 bits; `self` exists only with NEON.
-        unsafe {
-            let at = [map.at(indices[0]), map.at(indices[1]), map.at(indices[2]), map.at(indices[3])];
-            let low = vcombine_u16(vld1_u16(at[0].cast()), vld1_u16(at[1].cast()));
-            let high = vcombine_u16(vld1_u16(at[2].cast()), vld1_u16(at[3].cast()));
-            let (low, high) = (vreinterpretq_u32_u16(low), vreinterpretq_u32_u16(high));
-            let (front, back) = (vuzp1q_u32(low, high), vuzp2q_u32(low, high));
-            [lower(front), upper(front), lower(back)]
+        let mut bits = [self.splat(0.0); LANES];
+        for lane in 0..LANES {
+            // SAFETY: the pointer is to a texel and the one after it, 128 bits; `self` exists only with NEON.
+            bits[lane] = F32x4(unsafe { vreinterpretq_f32_u16(vld1q_u16(map.at(indices[lane]).cast())) });
         }
+        self.transpose(&mut bits);
+        // SAFETY: `self` exists only with NEON.
+        let [a, b, c, d] = bits.map(|bits| unsafe { vreinterpretq_u32_f32(bits.0) });
+        [[lower(a), upper(a), lower(b)], [lower(c), upper(c), lower(d)]]
     }
 
     #[inline(always)]

@@ -46,9 +46,9 @@ impl Simd for Scalar {
     }
 
     #[inline(always)]
-    fn texels(self, map: Texels<'_>, indices: &[u32]) -> [F32x1; 3] {
-        let [first, second, third, _] = map.get(indices[0]);
-        [first, second, third].map(|half| F32x1(half.to_f32()))
+    fn texel_pairs(self, map: Texels<'_>, indices: &[u32]) -> [[F32x1; 3]; 2] {
+        map.pair(indices[0])
+            .map(|[first, second, third, _]| [first, second, third].map(|half| F32x1(half.to_f32())))
     }
 
     #[inline(always)]

@@ -69,9 +69,15 @@ impl Simd for Sse {
     }
 
     #[inline(always)]
-    fn texels(self, map: Texels<'_>, indices: &[u32]) -> [F32x4; 3] {
-        let [low, high] = x86::texels(map, &indices[..LANES]);
-        [lower(low), upper(low), lower(high)]
+    fn texel_pairs(self, map: Texels<'_>, indices: &[u32]) -> [[F32x4; 3]; 2] {
+        let indices = &indices[..LANES];
+        let mut bits = [self.splat(0.0); LANES];
+        for lane in 0..LANES {
+            bits[lane] = F32x4(x86::texel_pair(map, indices[lane]));
+        }
+        self.transpose(&mut bits);
+        let [a, b, c, d] = bits.map(|bits| bits.0);
+        [[lower(a), upper(a), lower(b)], [lower(c), upper(c), lower(d)]]
     }
 
     #[inline(always)]

@@ -13,34 +13,19 @@ pub fn pairs(table: &[[f32; 2]], indices: &[u16]) -> [__m128; 2] {
     let second: *const f64 = table[usize::from(indices[1])].as_ptr().cast();
     let third: *const f64 = table[usize::from(indices[2])].as_ptr().cast();
     let fourth: *const f64 = table[usize::from(indices[3])].as_ptr().cast();
-    // SAFETY: each pointer is to a pair, 64 bits, that is within the table.
-    unsafe { sorted([first, second, third, fourth]) }
-}
-
-/// The lower and the upper 32 bits of the texels at four `indices`.
-///
-/// # Panics
-/// When there are fewer indices.
-#[inline(always)]
-pub fn texels(map: Texels<'_>, indices: &[u32]) -> [__m128; 2] {
-    let indices = &indices[..4];
-    let at = [map.at(indices[0]), map.at(indices[1]), map.at(indices[2]), map.at(indices[3])];
-    // SAFETY: each pointer is to a texel, 64 bits.
-    unsafe { sorted([at[0].cast(), at[1].cast(), at[2].cast(), at[3].cast()]) }
-}
-
-/// The lower halves of four times 64 bits, and the upper ones.
-///
-/// # Safety
-/// They may be read.
-#[inline(always)]
-unsafe fn sorted([first, second, third, fourth]: [*const f64; 4]) -> [__m128; 2] {
-    // SAFETY: the caller vouches for the pointers, which these instructions do not want aligned; SSE2 is part of x86-64.
+    // SAFETY: each pointer is to a pair, 64 bits, that is within the table, and need not be aligned; SSE2 is part of x86-64.
     unsafe {
         let low = _mm_castpd_ps(_mm_loadh_pd(_mm_load_sd(first), second));
         let high = _mm_castpd_ps(_mm_loadh_pd(_mm_load_sd(third), fourth));
         [_mm_shuffle_ps::<0x88>(low, high), _mm_shuffle_ps::<0xdd>(low, high)]
     }
+}
+
+/// The bits of the texel at `index` and of the one after it.
+#[inline(always)]
+pub fn texel_pair(map: Texels<'_>, index: u32) -> __m128 {
+    // SAFETY: the pointer is to two texels, 128 bits; SSE is part of x86-64.
+    unsafe { _mm_loadu_ps(map.at(index).cast()) }
 }
 
 /// The bytes of four texels from those of four channels, for a shuffle.
