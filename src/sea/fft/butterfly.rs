@@ -5,7 +5,6 @@
 use crate::sea::simd::{Float, Simd};
 use std::f64::consts::{FRAC_1_SQRT_2, PI};
 use std::ops::{Add, Sub};
-use std::sync::atomic::{Ordering::SeqCst, compiler_fence};
 
 /// A complex number in each lane.
 #[derive(Clone, Copy, Debug)]
@@ -78,6 +77,12 @@ impl<V: Float> Complex<V> {
         Self { re: factor.mul_add(other.im, self.re), im: factor.neg_mul_add(other.re, self.im) }
     }
 
+    /// See [`Float::pinned`].
+    #[inline(always)]
+    fn pinned(self) -> Self {
+        Self { re: self.re.pinned(), im: self.im.pinned() }
+    }
+
     /// `self (1 + i tangent)`.
     #[inline(always)]
     fn sheared(self, tangent: V) -> Self {
@@ -88,6 +93,9 @@ impl<V: Float> Complex<V> {
 /// Where the numbers of a transform come from and go to. All are read before the first is written, so that both may be
 /// the same place; what is not wanted for long is neither read early nor written late, since registers are few.
 pub trait Points<S: Simd> {
+    /// Whether all are in registers before the first is read.
+    const AT_HAND: bool = false;
+
     /// x_`n`.
     fn read(&self, n: usize) -> Complex<S::F32>;
     /// Takes X_`k`.
@@ -121,6 +129,16 @@ fn read_all<S: Simd>(points: &impl Points<S>, first: usize, stride: usize) -> [C
     [points.read(at(0)), points.read(at(1)), points.read(at(2)), points.read(at(3))]
 }
 
+/// [`four`] of what is read now, and not all of it before anything is transformed: half of that would be spilled.
+#[inline(always)]
+fn four_read<S: Simd, P: Points<S>>(points: &P, first: usize, stride: usize) -> [Complex<S::F32>; 4] {
+    let [a, b, c, d] = four(read_all(points, first, stride));
+    if P::AT_HAND {
+        return [a, b, c, d];
+    }
+    [a.pinned(), b.pinned(), c.pinned(), d.pinned()]
+}
+
 #[inline(always)]
 fn write_all<S: Simd>(
     points: &mut impl Points<S>,
@@ -144,8 +162,8 @@ fn four<V: Float>([a, b, c, d]: [Complex<V>; 4]) -> [Complex<V>; 4] {
 
 #[inline(always)]
 fn eight<S: Simd>(simd: S, points: &mut impl Points<S>) {
-    let even = four(read_all(points, 0, 2));
-    let odd = four(read_all(points, 1, 2));
+    let even = four_read(points, 0, 2);
+    let odd = four_read(points, 1, 2);
     let (one, half) = (simd.splat(1.0), simd.splat(FRAC_1_SQRT_2 as f32));
     points.write(0, even[0] + odd[0]);
     points.write(4, even[0] - odd[0]);
@@ -198,15 +216,10 @@ fn four_turned<S: Simd, const K: usize>(simd: S, [a, b, c, d]: [Complex<S::F32>;
 /// 4 x 4.
 #[inline(always)]
 fn sixteen<S: Simd>(simd: S, points: &mut impl Points<S>) {
-    // Without the fences, which cost the processor nothing, the compiler reads all at once and spills half of it.
-    let a = four(read_all(points, 0, 4));
-    compiler_fence(SeqCst);
-    let b = four(read_all(points, 1, 4));
-    compiler_fence(SeqCst);
-    let c = four(read_all(points, 2, 4));
-    compiler_fence(SeqCst);
-    let d = four(read_all(points, 3, 4));
-    compiler_fence(SeqCst);
+    let a = four_read(points, 0, 4);
+    let b = four_read(points, 1, 4);
+    let c = four_read(points, 2, 4);
+    let d = four_read(points, 3, 4);
     write_all(points, 0, 4, four([a[0], b[0], c[0], d[0]]));
     write_all(points, 1, 4, four_turned::<S, 1>(simd, [a[1], b[1], c[1], d[1]]));
     // w^2, i, w^6 = i w^2: the two turned ones share their factor.

@@ -307,6 +307,8 @@ struct Second<'a, S: Simd> {
 }
 
 impl<S: Simd> Points<S> for Second<'_, S> {
+    const AT_HAND: bool = true;
+
     #[inline(always)]
     fn read(&self, n: usize) -> Complex<S::F32> {
         self.x[n]
@@ -328,6 +330,8 @@ struct SecondOfRows<'a, S: Simd, const M: usize> {
 }
 
 impl<S: Simd, const M: usize> Points<S> for SecondOfRows<'_, S, M> {
+    const AT_HAND: bool = true;
+
     #[inline(always)]
     fn read(&self, n: usize) -> Complex<S::F32> {
         self.x[n]

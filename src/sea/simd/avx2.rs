@@ -5,7 +5,7 @@ use super::{
     x86,
 };
 use half::f16;
-use std::arch::x86_64::*;
+use std::arch::{asm, x86_64::*};
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// AVX2: a value exists only where the processor has it.
@@ -240,6 +240,21 @@ impl Float for F32x8 {
             let joined = _mm256_blend_ps::<1>(self.0, next.0);
             Self(_mm256_permutevar8x32_ps(joined, _mm256_setr_epi32(0, 7, 6, 5, 4, 3, 2, 1)))
         }
+    }
+
+    #[inline(always)]
+    fn pinned(self) -> Self {
+        #[inline]
+        #[target_feature(enable = "avx")]
+        fn pinned(mut vector: __m256) -> __m256 {
+            // SAFETY: nothing but a comment.
+            unsafe {
+                asm!("/* {vector} */", vector = inout(ymm_reg) vector, options(nomem, nostack, preserves_flags));
+            }
+            vector
+        }
+        // SAFETY: vectors exist only with AVX2.
+        Self(unsafe { pinned(self.0) })
     }
 
     #[inline(always)]

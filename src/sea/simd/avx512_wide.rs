@@ -6,7 +6,7 @@ use super::{
     x86,
 };
 use half::f16;
-use std::arch::x86_64::*;
+use std::arch::{asm, x86_64::*};
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// AVX-512 with its longest vectors: a value exists only where the processor has it.
@@ -294,6 +294,21 @@ impl Float for F32x16 {
         let at = lanes([16, 15, 14, 13, 12, 11, 10, 9, 8, 7, 6, 5, 4, 3, 2, 1]);
         // SAFETY: vectors exist only with AVX-512.
         Self(unsafe { _mm512_permutex2var_ps(self.0, at, next.0) })
+    }
+
+    #[inline(always)]
+    fn pinned(self) -> Self {
+        #[inline]
+        #[target_feature(enable = "avx512f")]
+        fn pinned(mut vector: __m512) -> __m512 {
+            // SAFETY: nothing but a comment.
+            unsafe {
+                asm!("/* {vector} */", vector = inout(zmm_reg) vector, options(nomem, nostack, preserves_flags));
+            }
+            vector
+        }
+        // SAFETY: vectors exist only with AVX-512.
+        Self(unsafe { pinned(self.0) })
     }
 
     #[inline(always)]

@@ -165,6 +165,13 @@ pub trait Float:
     /// Lane 0 is `next`'s lane 0; lane i > 0 is `self`'s lane LANES - i.
     fn mirrored(self, next: Self) -> Self;
 
+    /// Itself, in a register: what is pinned in a program before is computed before, and what comes after it after. The
+    /// compiler, which has its own mind about the order, does not know how few registers that order needs.
+    #[inline(always)]
+    fn pinned(self) -> Self {
+        self
+    }
+
     /// Sums of neighbours times `factor`, a power of two: those of `self` in the lower half of the lanes, those of `other`
     /// in the upper.
     fn pair_sums(self, other: Self, factor: Self) -> Self;

@@ -229,6 +229,15 @@ impl Float for F32x4 {
     }
 
     #[inline(always)]
+    fn pinned(mut self) -> Self {
+        // SAFETY: nothing but a comment.
+        unsafe {
+            asm!("/* {vector:v} */", vector = inout(vreg) self.0, options(nomem, nostack, preserves_flags));
+        }
+        self
+    }
+
+    #[inline(always)]
     fn pair_sums(self, other: Self, factor: Self) -> Self {
         // SAFETY: vectors exist only with NEON.
         Self(unsafe { vmulq_f32(vpaddq_f32(self.0, other.0), factor.0) })

@@ -5,7 +5,7 @@ use super::{
     x86,
 };
 use half::f16;
-use std::arch::x86_64::*;
+use std::arch::{asm, x86_64::*};
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// SSE4.1: a value exists only where the processor has it.
@@ -209,6 +209,15 @@ impl Float for F32x4 {
             let joined = _mm_blend_ps::<1>(self.0, next.0);
             Self(_mm_shuffle_ps::<0b01_10_11_00>(joined, joined))
         }
+    }
+
+    #[inline(always)]
+    fn pinned(mut self) -> Self {
+        // SAFETY: nothing but a comment.
+        unsafe {
+            asm!("/* {vector} */", vector = inout(xmm_reg) self.0, options(nomem, nostack, preserves_flags));
+        }
+        self
     }
 
     #[inline(always)]
