@@ -4,7 +4,7 @@ use super::{
     clock::Phase,
     columns::StepColumns,
     error::SeaError,
-    evolve,
+    evolve::Rotations,
     fft::{
         layout::{FIELDS, Layout},
         rows::HalfSpectra,
@@ -116,7 +116,8 @@ impl Cascade {
             std::mem::swap(&mut self.half, &mut self.last_half);
         }
         times.measure(stage::ROTATIONS, || {
-            evolve::rotations(&self.spectrum.harmonics, phase, &mut self.rotations);
+            let harmonics = &self.spectrum.harmonics;
+            self.isa.run(Rotations { harmonics, phase, table: &mut self.rotations });
         });
         times.measure(stage::COLUMNS, || {
             let (isa, layout, rotations) = (self.isa, self.layout, &self.rotations);
@@ -132,10 +133,13 @@ impl Cascade {
         });
     }
 
-    /// Rows in a band: the grid as a whole for one thread, else two bands for each, at most [`MAX_BANDS`].
+    /// Rows in a band: rows at its edges are transformed by its neighbours too, so bands are few. The grid as a whole for one
+    /// thread, one for each where that is a power of two, else so many that they can be shared out, at most
+    /// [`MAX_BANDS`].
     fn band_rows(&self) -> usize {
         let threads = rayon::current_num_threads();
-        let bands = if threads == 1 { 1 } else { (2 * threads).next_power_of_two().min(MAX_BANDS) };
+        let bands = if threads.is_power_of_two() { threads } else { (2 * threads).next_power_of_two() };
+        let bands = bands.min(MAX_BANDS);
         (self.layout.n / bands).max(band::least_rows(self.layout.n))
     }
 

@@ -34,6 +34,7 @@ impl Phase {
     }
 
     /// By how many 2^-32 of a turn harmonic `harmonic` has advanced, whole turns left out, rounded down.
+    #[inline(always)]
     pub fn turned(self, harmonic: u32) -> u32 {
         ((self.0.wrapping_mul(u64::from(harmonic)) % WHOLE) >> (DIGITS - u32::BITS)) as u32
     }

@@ -6,25 +6,41 @@ use super::{
         columns::{Rows, Source, StoredRows},
         layout::{Layout, ROW, TILE},
     },
-    simd::{Float, Simd, Strided, StridedMut},
+    simd::{Float, Kernel, Simd, Strided, StridedMut},
     spectrum::SpectrumTile,
 };
 use std::f64::consts::TAU;
 
-/// Fills `table` with (cos, sin) of every one of `harmonics` at `phase`: far fewer than there are wave vectors.
-pub fn rotations(harmonics: &[u32], phase: Phase, table: &mut [[f32; 2]]) {
-    for (entry, &harmonic) in table.iter_mut().zip(harmonics) {
-        *entry = cos_sin(phase.turned(harmonic));
+/// Fills a table with (cos, sin) of every harmonic at a moment: far fewer than there are wave vectors.
+pub struct Rotations<'a> {
+    /// The harmonics.
+    pub harmonics: &'a [u32],
+    /// The moment.
+    pub phase: Phase,
+    /// Their table.
+    pub table: &'a mut [[f32; 2]],
+}
+
+impl Kernel for Rotations<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<S: Simd>(self, _: S) {
+        for (entry, &harmonic) in self.table.iter_mut().zip(self.harmonics) {
+            *entry = cos_sin(self.phase.turned(harmonic));
+        }
     }
 }
 
 /// (cos, sin) of `turn` / 2^32 of a circle, to 1e-9 before they are rounded.
 ///
-/// Taylor's series in `f64` up to an eighth of a circle, without fused or library operations: the same bits everywhere.
+/// Taylor's series in `f64` up to an eighth of a circle, without fused or library operations: the same bits everywhere. And
+/// without branches, so that the compiler can make vectors of it.
+#[inline(always)]
 pub fn cos_sin(turn: u32) -> [f32; 2] {
     const QUARTER: u32 = 1 << 30;
     let quadrant = turn.wrapping_add(QUARTER / 2) / QUARTER;
-    let rest = turn.wrapping_sub(quadrant * QUARTER) as i32;
+    let rest = turn.wrapping_sub(quadrant * QUARTER).cast_signed();
     let x = f64::from(rest) * (TAU / 4_294_967_296.0);
     // A quotient is as many instructions as all the rest: 1 / n! is known beforehand.
     const fn over(n: u32) -> f64 {
@@ -40,18 +56,16 @@ pub fn cos_sin(turn: u32) -> [f32; 2] {
     let x2 = x * x;
     let sin = x * SIN.iter().rev().fold(0.0, |sum, term| sum * x2 + term);
     let cos = COS.iter().rev().fold(0.0, |sum, term| sum * x2 + term);
-    let [cos, sin] = match quadrant {
-        0 => [cos, sin],
-        1 => [-sin, cos],
-        2 => [-cos, -sin],
-        _ => [sin, -cos],
-    };
-    [cos as f32, sin as f32]
+    // Each quarter of a turn: (cos, sin) becomes (-sin, cos).
+    let (cos, sin) = (cos as f32, sin as f32);
+    let [cos, sin] = if quadrant & 1 == 0 { [cos, sin] } else { [sin, cos] };
+    let sign = |turned: u32| (turned & 2) << 30;
+    [f32::from_bits(cos.to_bits() ^ sign(quadrant + 1)), f32::from_bits(sin.to_bits() ^ sign(quadrant))]
 }
 
 /// The spectrum of the height of one tile, h(k, t) = h0(k) e^{-i w t} + conj(h0(-k)) e^{i w t}, so that waves run along +k.
 ///
-/// `rotations` is the table of [`rotations`], `out` a tile of N = `R1` x `R2` rows.
+/// `rotations` is the table of [`Rotations`], `out` a tile of N = `R1` x `R2` rows.
 #[inline(always)]
 pub fn evolve<S: Simd, const R1: usize, const R2: usize>(
     simd: S,
