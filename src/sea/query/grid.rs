@@ -85,7 +85,7 @@ impl<'a> Grid<'a> {
         // What is next to a row's last texel is its first, and not the one that follows in memory.
         if last != 0 {
             for l in 0..S::LANES {
-                let right = (columns[l] + 1) & mask;
+                let right = columns[l].wrapping_add(1) & mask;
                 upper[l] = upper[l] & !mask | right;
                 lower[l] = lower[l] & !mask | right;
             }
@@ -120,6 +120,7 @@ pub fn single(bits: u32) -> f32 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::sea::simd::{Float, Isa, Kernel};
 
     #[test]
     fn every_finite_half_is_read() {
@@ -130,6 +131,48 @@ mod tests {
                 let got = single(0xabcd_0000 | u32::from(bits));
                 assert_eq!(got.to_bits(), truth.to_f32().to_bits(), "{bits:#x}");
             }
+        }
+    }
+
+    /// Corners of cells anywhere: within rows, at their ends, below the last one.
+    struct Corners<'a>(&'a Grid<'a>);
+
+    impl Kernel for Corners<'_> {
+        type Output = ();
+        #[inline(always)]
+        fn run<S: Simd>(self, simd: S) {
+            for at in [[0, 0], [2, 3], [3, 1], [7, 10], [u32::MAX, u32::MAX], [u32::MAX - 9, 5]] {
+                // A single vector has cells at the end of a row or none.
+                for spread in [0, 1] {
+                    let cells = at.map(|at| {
+                        std::array::from_fn::<_, MAX_LANES, _>(|l| at.wrapping_add(spread * l as u32))
+                    });
+                    let corners = self.0.corners(simd, &cells[0], &cells[1]);
+                    for (corner, numbers) in corners.into_iter().enumerate() {
+                        for (place, numbers) in numbers.into_iter().enumerate() {
+                            let mut lanes = [0.0; MAX_LANES];
+                            numbers.store(&mut lanes);
+                            for l in 0..S::LANES {
+                                let [column, row] = [cells[0][l], cells[1][l]].map(u64::from);
+                                let (right, below) = (corner as u64 & 1, corner as u64 >> 1);
+                                let truth = self.0.texel(column + right, row + below)[place];
+                                assert_eq!(lanes[l], truth, "{column} {row}, corner {corner}, {place}");
+                            }
+                        }
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn corners_are_those_of_the_torus() {
+        let texels: Vec<[f16; 4]> = (0..17)
+            .map(|i| [0.0, 100.0, 200.0, 300.0].map(|first| f16::from_f32(first + i as f32)))
+            .collect();
+        let grid = Grid { texels: Texels::new(&texels), mask: 3, shift: 2, ..Grid::FLAT };
+        for isa in Isa::available() {
+            isa.run(Corners(&grid));
         }
     }
 
